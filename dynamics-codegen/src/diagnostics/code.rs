@@ -1,0 +1,164 @@
+//! The catalogue of mistakes. The wording of the help lives here, once.
+
+use std::fmt;
+
+macro_rules! catalogue {
+    ($($(#[doc = $doc:literal])+ $name:ident => $help:literal,)+) => {
+        /// A kind of mistake.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub enum Code {
+            $($(#[doc = $doc])+ $name,)+
+        }
+
+        impl Code {
+            /// Every kind, in the order of the catalogue.
+            pub const ALL: &'static [Self] = &[$(Self::$name,)+];
+
+            /// One sentence in the imperative: what the user can do now.
+            pub fn help(self) -> &'static str {
+                match self {
+                    $(Self::$name => $help,)+
+                }
+            }
+
+            /// The name without its prefix, as in `MassNotPositive`.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$name => stringify!($name),)+
+                }
+            }
+
+            /// What the mistake is.
+            pub fn explanation(self) -> &'static str {
+                match self {
+                    $(Self::$name => concat!($($doc, "\n",)+).trim_ascii(),)+
+                }
+            }
+        }
+    };
+}
+
+catalogue! {
+    // Syntax
+    /// Tokens that do not fit the grammar.
+    Syntax => "write the attribute as the documentation of `Dynamics` shows it",
+    /// An expression or a group nested deeper than any robot needs.
+    NestingTooDeep => "give the inner parts their own fields, or write the expression with fewer parentheses",
+    /// A helper attribute on a field instead of the struct.
+    AttributeMisplaced => "write the attribute above the struct, after `#[derive(Dynamics)]`",
+    /// A key that the attribute does not know.
+    KeyUnknown => "use one of the keys that the attribute knows",
+    /// A key that was given twice.
+    KeyDuplicate => "keep one of the two",
+    /// Keys that exclude each other.
+    KeysConflict => "keep one of the two",
+    /// A list or a call with too few or too many parts.
+    CountWrong => "give exactly the parts that are listed",
+    /// A number too large or too small for a double.
+    NumberOutOfRange => "use a number whose size is between 1e-300 and 1e300",
+    /// A unit that is not known.
+    UnitUnknown => "use one of m, cm, mm, um, km, kg, g, t, s, ms, rad, deg, N, Nm",
+    /// A function that is not known.
+    FunctionUnknown => "use one of sin, cos, sqrt",
+    /// A name that is no field of the struct.
+    FieldUnknown => "name a field of the struct, or write a number",
+    // The struct
+    /// An enum, a union or a tuple struct.
+    StructNeeded => "derive `Dynamics` for a struct with named fields, or for a unit struct",
+    /// A field that the equations use is no number.
+    FieldTypeUnsupported => "give the field the struct's type parameter, `f64` or `f32` as its type",
+    /// The fields that the equations use have different types.
+    FieldTypesDiffer => "give all fields that the robot uses the same type",
+    // Names
+    /// The name was given before.
+    NameDuplicate => "give each joint and each body a name of its own",
+    /// Two names become the same Rust identifier.
+    NamesCollide => "choose names that differ in more than case and underscores",
+    /// The name cannot be used.
+    NameReserved => "choose another name",
+    // Topology
+    /// There is no joint.
+    JointMissing => "add a joint, as in `#[joint(theta1: revolute(z), world -> column)]`",
+    /// No joint moves.
+    DegreesOfFreedomMissing => "make a joint `revolute`, `continuous` or `prismatic`",
+    /// Too many joints.
+    JointsTooMany => "split the robot; above 1000 joints straight-line code is of no use",
+    /// A joint's parent is no body.
+    ParentUnknown => "name a body that a joint carries, or `world`",
+    /// A moving joint carries a body that is not described.
+    BodyMissing => "describe the body by a `#[body(…)]`; without `mass` it is a frame without mass",
+    /// The world is moved.
+    WorldIsChild => "turn the joint round: the world is always the parent",
+    /// Two joints carry the same body.
+    ParentTwice => "let one joint carry the body; closed loops are not supported",
+    /// Joints form a cycle.
+    Cycle => "let the chain of parents of every body end at `world`",
+    /// No joint carries the body.
+    BodyUnreachable => "carry it by a joint, as in `#[joint(name: fixed, world -> body)]`",
+    /// A joint comes before the joint that carries it.
+    ParentAfterChild => "move this line up: coordinates are numbered in the order of the joints, parents first",
+    // Joints
+    /// The kind of joint is not known.
+    JointKindUnknown => "use one of revolute, continuous, prismatic, fixed",
+    /// The joint has no axis.
+    AxisMissing => "give an axis, as in `revolute(z)`",
+    /// The axis is given by the placement already.
+    AxisUnneeded => "leave the axis out: the placement defines it",
+    /// The axis is no direction.
+    AxisZero => "give a direction, as `z`, `-x` or `[0, 1, 1]`",
+    /// The axis depends on a field.
+    AxisNotConstant => "write the axis in numbers, and turn the joint's frame by `rpy`",
+    /// A joint that does not move, or turns without end, has no limits.
+    LimitsUnneeded => "leave the limits out, or make the joint `revolute` or `prismatic`",
+    /// The limits leave no room.
+    LimitsInverted => "write the smaller limit first",
+    /// A limit of speed or effort is negative.
+    LimitNegative => "give the limit as a magnitude",
+    /// A field stands where a number is needed.
+    ConstantNeeded => "write a number",
+    /// An angle without a unit that is more than a full turn.
+    AngleLooksLikeDegrees => "angles are in radians: write `deg` after the number, or `rad` if it is meant",
+    // Bodies
+    /// Mass without inertia.
+    InertiaMissing => "add `inertia = diag(…)`, or use `solid = point(m)` for a point mass",
+    /// Inertia, or its place, without mass.
+    MassMissing => "add `mass = …`",
+    /// The mass is zero or negative.
+    MassNotPositive => "give a mass in kilograms greater than zero, or leave out mass and inertia",
+    /// A dimension of a solid is negative.
+    SizeNegative => "give a size greater than zero",
+    /// The tensor is not symmetric as written.
+    InertiaNotSymmetric => "write the same expression in both places, or use `tensor(ixx, ixy, ixz, iyy, iyz, izz)`",
+    /// The tensor looks like the first entries of a matrix by rows.
+    InertiaOrder => "the order is ixx, ixy, ixz, iyy, iyz, izz; if it is meant, write the matrix `[[…], […], […]]`",
+    /// No distribution of mass has this inertia.
+    InertiaNonphysical => "correct the inertia, which is about the centre of mass",
+    /// A joint moves no mass.
+    MovesNoMass => "give a body that the joint moves a mass, or make the joint `fixed`",
+    /// A joint turns no inertia.
+    MovesNoInertia => "give the body an inertia about the axis, or make the joint `fixed`",
+    // Quantities
+    /// An expression has another unit than its place needs.
+    UnitMismatch => "check the expression for a missing or superfluous factor",
+    /// Terms of different units are added.
+    UnitsDiffer => "add only terms of the same unit",
+    /// A division by zero.
+    DivisionByZero => "divide by something other than zero",
+    /// The square root of a negative number.
+    RootOfNegative => "take the root of a number that is not negative",
+    // Options
+    /// A method that does not exist.
+    OutputUnknown => "name methods of the `Dynamics` traits",
+    /// A lint that does not exist.
+    AllowUnknown => "the one thing to allow is `nonphysical_inertia`",
+    // The compiler
+    /// The generated code does not compute what the plain recursion computes.
+    SelfCheckFailed => "this is a mistake of the compiler, not yours: please report it with the robot's specification",
+}
+
+impl fmt::Display for Code {
+    /// The stable name, as in `dynamics::MassNotPositive`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "dynamics::{}", self.name())
+    }
+}

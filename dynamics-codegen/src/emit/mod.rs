@@ -1,0 +1,3 @@
+//! From programs to text.
+
+pub mod rust;

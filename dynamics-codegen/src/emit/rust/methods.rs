@@ -1,0 +1,203 @@
+//! One method: its signature, its documentation, its body.
+
+use std::fmt::Write as _;
+
+use super::body::{self, Body, Context};
+use crate::mechanics::equations::{Argument, Block, Equation, Input, Method, Shape};
+use crate::passes::{Cost, Program};
+
+/// A method on its way into an impl.
+pub(super) struct Written {
+    /// The method.
+    pub(super) method: Method,
+    /// Its operations.
+    pub(super) cost: Cost,
+    /// Its text at the indentation of an impl's item.
+    pub(super) text: String,
+}
+
+/// Writes the method of an equation; `scalar` is the name of its scalar type.
+pub(super) fn write(
+    equation: &Equation<'_>,
+    program: &Program,
+    context: &Context<'_>,
+    scalar: &str,
+    robot: &str,
+) -> Written {
+    let names = body::entry_names(&equation.blocks, context.dof);
+    let body = body::write(program, &names, context, 2);
+    let cost = program.cost();
+    let mut text = String::new();
+    let _ = writeln!(text, "    /// {}", headline(equation.method, context.dof));
+    let _ = writeln!(text, "    ///\n    /// {}.", describe(cost));
+    let reads_robot = if body.fields.is_empty() { "_robot" } else { "robot" };
+    let receiver =
+        if takes_robot(equation.method) { format!("{reads_robot}: &{robot}") } else { "&self".to_owned() };
+    let _ = writeln!(text, "{}", signature(equation.method, &receiver, scalar, context.dof, &body));
+    text.push_str(&bindings(equation.method, context, &body));
+    if !body.statements.is_empty() {
+        text.push('\n');
+        text.push_str(&body.statements);
+    }
+    if !body.statements.is_empty() || !body.inputs.is_empty() || !body.fields.is_empty() {
+        text.push('\n');
+    }
+    let _ = write!(text, "{}    }}\n", result(equation, &body));
+    Written { method: equation.method, cost, text }
+}
+
+/// Whether the method belongs to a frame, and is given the robot.
+pub(super) fn takes_robot(method: Method) -> bool {
+    matches!(method, Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_))
+}
+
+/// The signature without the body.
+pub(super) fn signature(method: Method, receiver: &str, scalar: &str, dof: usize, body: &Body) -> String {
+    let mut arguments = receiver.to_owned();
+    for &argument in method.arguments() {
+        let read =
+            body.inputs.iter().any(|(input, _)| matches!(input, Input::Argument(a, _) if *a == argument));
+        let underscore = if read { "" } else { "_" };
+        let _ = write!(arguments, ", {underscore}{}: &SVector<{scalar}, {dof}>", argument.name());
+    }
+    format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, dof))
+}
+
+/// The type that a method returns.
+pub(super) fn return_type(method: Method, scalar: &str, dof: usize) -> String {
+    match method {
+        Method::MassMatrix | Method::CoriolisMatrix => format!("SMatrix<{scalar}, {dof}, {dof}>"),
+        Method::GravityForces | Method::BiasForces | Method::InverseDynamics | Method::ForwardDynamics => {
+            format!("SVector<{scalar}, {dof}>")
+        }
+        Method::KineticEnergy | Method::PotentialEnergy | Method::Lagrangian => scalar.to_owned(),
+        Method::EquationsOfMotion => format!("EquationsOfMotion<{scalar}, {dof}>"),
+        Method::InverseDynamicsDerivatives => format!("InverseDynamicsDerivatives<{scalar}, {dof}>"),
+        Method::ForwardDynamicsDerivatives => format!("ForwardDynamicsDerivatives<{scalar}, {dof}>"),
+        Method::Pose(_) => format!("Pose<{scalar}>"),
+        Method::Jacobian(_) | Method::WorldJacobian(_) => format!("SMatrix<{scalar}, 6, {dof}>"),
+    }
+}
+
+fn headline(method: Method, n: usize) -> String {
+    match method {
+        Method::MassMatrix => format!("`M(q)`: {n}×{n}, symmetric positive definite."),
+        Method::CoriolisMatrix => format!("`C(q,v)`: {n}×{n}, with `Ṁ = C + Cᵀ`."),
+        Method::GravityForces => "`G(q) = ∂V/∂q`, on the left-hand side.".to_owned(),
+        Method::BiasForces => "`C(q,v)·v + G(q)`.".to_owned(),
+        Method::InverseDynamics => "`τ = M·a + C·v + G`.".to_owned(),
+        Method::ForwardDynamics => "`a = M⁻¹·(τ − C·v − G)`.".to_owned(),
+        Method::KineticEnergy => "`T = ½ vᵀ·M·v`, J.".to_owned(),
+        Method::PotentialEnergy => "`V(q)`, J.".to_owned(),
+        Method::Lagrangian => "`L = T − V`, J.".to_owned(),
+        Method::EquationsOfMotion => "`M(q)`, `C(q,v)` and `G(q)` in one.".to_owned(),
+        Method::InverseDynamicsDerivatives => "`∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`.".to_owned(),
+        Method::ForwardDynamicsDerivatives => "`∂a/∂q`, `∂a/∂v` and `∂a/∂τ = M⁻¹`.".to_owned(),
+        Method::Pose(_) => "The frame's pose in the world.".to_owned(),
+        Method::Jacobian(_) => {
+            "The twist of the frame in its own axes for each joint's unit speed.".to_owned()
+        }
+        Method::WorldJacobian(_) => "The same in the world's axes.".to_owned(),
+    }
+}
+
+/// `193 mul, 183 add, 7 sincos`
+pub(super) fn describe(cost: Cost) -> String {
+    let parts = [
+        (cost.multiplications, "mul"),
+        (cost.additions, "add"),
+        (cost.divisions, "div"),
+        (cost.square_roots, "sqrt"),
+        (cost.sines_and_cosines, "sincos"),
+    ];
+    let parts: Vec<String> =
+        parts.iter().filter(|(count, _)| *count > 0).map(|(count, name)| format!("{count} {name}")).collect();
+    if parts.is_empty() { "No arithmetic".to_owned() } else { parts.join(", ") }
+}
+
+/// The lines that take inputs apart: `let [[q0, q1]] = q.data.0;`
+fn bindings(method: Method, context: &Context<'_>, body: &Body) -> String {
+    let mut lines = String::new();
+    for &argument in method.arguments() {
+        let component = |k: usize| {
+            let input = Input::Argument(argument, k);
+            body.inputs.iter().find(|(known, _)| *known == input).map_or("_", |(_, name)| name.as_str())
+        };
+        let components: Vec<&str> = (0..context.dof).map(component).collect();
+        if components.iter().any(|&name| name != "_") {
+            let _ =
+                writeln!(lines, "        let [[{}]] = {}.data.0;", shortened(&components), argument.name());
+        }
+    }
+    if !body.fields.is_empty() {
+        let mut fields = body.fields.clone();
+        fields.sort_unstable();
+        let names: Vec<&str> = fields.iter().map(|&k| context.fields[k].as_str()).collect();
+        let rest = if names.len() < context.fields.len() { ", .." } else { "" };
+        if takes_robot(method) {
+            let _ = writeln!(
+                lines,
+                "        let {} {{ {}{rest} }} = *robot;",
+                context.companion,
+                names.join(", ")
+            );
+        } else {
+            let _ = writeln!(lines, "        let Self {{ {}{rest} }} = *self;", names.join(", "));
+        }
+    }
+    lines
+}
+
+/// `q0, q1, ..` where the last components are not read.
+fn shortened(components: &[&str]) -> String {
+    let read = components.iter().rposition(|&name| name != "_").map_or(0, |last| last + 1);
+    let mut text = components[..read].join(", ");
+    if read < components.len() {
+        text.push_str(", ..");
+    }
+    text
+}
+
+/// The expression that is returned.
+fn result(equation: &Equation<'_>, body: &Body) -> String {
+    let mut texts = body.results.iter().map(String::as_str);
+    let mut block_text = |block: &Block<'_>, indent: usize| {
+        let entries: Vec<&str> = texts.by_ref().take(block.entries.len()).collect();
+        block_expression(block.shape, &entries, indent)
+    };
+    let structure = match equation.method {
+        Method::EquationsOfMotion => "EquationsOfMotion",
+        Method::InverseDynamicsDerivatives => "InverseDynamicsDerivatives",
+        Method::ForwardDynamicsDerivatives => "ForwardDynamicsDerivatives",
+        Method::Pose(_) => "Pose",
+        _ => return format!("        {}\n", block_text(&equation.blocks[0], 2)),
+    };
+    let mut text = format!("        {structure} {{\n");
+    for block in &equation.blocks {
+        let _ = writeln!(text, "            {}: {},", block.name, block_text(block, 3));
+    }
+    text.push_str("        }\n");
+    text
+}
+
+fn block_expression(shape: Shape, entries: &[&str], indent: usize) -> String {
+    let pad = "    ".repeat(indent);
+    match shape {
+        Shape::Scalar => entries[0].to_owned(),
+        Shape::Vector(_) => format!("vector([{}])", entries.join(", ")),
+        Shape::Matrix(_, columns) => {
+            let mut text = "columns([\n".to_owned();
+            for column in 0..columns {
+                let entries: Vec<&str> = entries.iter().skip(column).step_by(columns).copied().collect();
+                let _ = writeln!(text, "{pad}    [{}],", entries.join(", "));
+            }
+            let _ = write!(text, "{pad}])");
+            text
+        }
+    }
+}
+
+/// The arguments of a call that passes them on.
+pub(super) fn pass_on(method: Method) -> String {
+    method.arguments().iter().map(|argument| Argument::name(*argument)).collect::<Vec<_>>().join(", ")
+}

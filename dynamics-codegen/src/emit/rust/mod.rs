@@ -1,0 +1,25 @@
+//! Rust: the impls of one robot, as text that a person would sign.
+
+mod body;
+mod item;
+mod items;
+mod methods;
+mod names;
+mod stub;
+
+pub use item::{Form, Item};
+pub use items::implementation;
+pub use stub::stub;
+
+use crate::model::Model;
+use crate::passes::Compiled;
+
+/// All that the Rust emitter reads.
+pub struct Input<'m, 'g> {
+    /// The struct.
+    pub item: &'m Item,
+    /// The robot.
+    pub model: &'m Model<'g>,
+    /// Its programs.
+    pub compiled: &'m Compiled<'g>,
+}

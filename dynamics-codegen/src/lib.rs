@@ -1,0 +1,84 @@
+//! The compiler behind `dynamics-core`: a robot's specification in, its specialised equations of motion out.
+//!
+//! ```text
+//! tokens ─► RobotSpec ─► Model ─► Equations ─► Program ─► text
+//!         spec        model    mechanics    passes     emit
+//! ```
+//!
+//! An ordinary library: the derive macro of `dynamics-macros` is one call of [`derive`], and tests, build
+//! scripts and command lines may make the same one. It does no input or output, depends on no clock and no
+//! hash order, and never panics on any input: a panic is a bug of this crate.
+
+pub mod diagnostics;
+pub mod emit;
+pub mod mechanics;
+pub mod model;
+pub mod passes;
+pub mod spatial;
+pub mod spec;
+pub mod symbolic;
+
+use diagnostics::Diagnostics;
+use proc_macro2::TokenStream;
+use symbolic::Graph;
+
+/// Expands `#[derive(Dynamics)]`.
+///
+/// Wrong input becomes `compile_error!`s at the user's tokens and a stub of every impl, so that one mistake in
+/// a robot is reported once and not again at every use of the robot.
+pub fn derive(input: TokenStream) -> TokenStream {
+    let input: syn::DeriveInput = match syn::parse2(input) {
+        Ok(input) => input,
+        Err(error) => return error.into_compile_error(),
+    };
+    match generate(&input) {
+        Ok(text) => text.parse().expect("generated text is made of whole tokens"),
+        Err(diagnostics) => {
+            let mut tokens = diagnostics.into_compile_errors();
+            tokens.extend(emit::rust::stub(&input));
+            tokens
+        }
+    }
+}
+
+/// The code for a robot, as text: the whole compiler, in order. Each phase sees only the one before it, and
+/// runs only if that found nothing wrong.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+pub fn generate(input: &syn::DeriveInput) -> Result<String, Diagnostics> {
+    let mut diags = Diagnostics::new();
+    let graph = Graph::new();
+
+    let spec = spec::parse(input, &mut diags); //                what was written
+    diags.check()?;
+    let model = model::build(&spec, &graph, &mut diags); //      a checked kinematic tree
+    diags.check()?;
+    let model = model.expect("a model that is not built has been complained about");
+
+    let outputs =
+        spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
+    let methods = passes::methods(outputs.as_deref(), model.tree.frames.len());
+    let compiled = passes::compile(&model, &graph, &methods); // derived, simplified, scheduled
+    check_against_plain_recursion(&spec, &model, &compiled, &mut diags);
+    diags.check()?;
+
+    let item = emit::rust::Item::of(&spec, &model);
+    Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+}
+
+/// The expansion checks itself: a program that computes something else is a mistake of the compiler.
+fn check_against_plain_recursion(
+    spec: &spec::RobotSpec,
+    model: &model::Model<'_>,
+    compiled: &passes::Compiled<'_>,
+    diags: &mut Diagnostics,
+) {
+    for found in passes::disagreements(model, compiled) {
+        let method = found.method.name();
+        let message =
+            format!("the generated `{method}` is off by {:.1e} from the plain recursion", found.error);
+        diags.error(diagnostics::Code::SelfCheckFailed, &spec.ident.span().into(), message);
+    }
+}

@@ -1,0 +1,16 @@
+//! From a tree to its equations. One algorithm, one file.
+
+pub mod composite;
+pub mod energy;
+pub mod equations;
+pub mod factor;
+pub mod frames;
+pub mod gauge;
+pub mod lagrange;
+pub mod motion;
+pub mod normal;
+pub mod plain;
+pub mod regroup;
+pub mod rnea;
+pub mod rotation;
+pub mod unit;

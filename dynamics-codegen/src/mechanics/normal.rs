@@ -1,0 +1,154 @@
+//! The tree in normal form: the frames and masses on which the specialised recursions run.
+//!
+//! Every link's frame has z on its joint's axis and turns by `Rz(q + offset)` after a constant turn. What is
+//! constant between two joints is as sparse as the geometry allows ([`gauge`](super::gauge)), and mass that
+//! can belong to a parent does ([`regroup`](super::regroup)). The world's frame is replaced by a base frame.
+//!
+//! W. Khalil, J.-F. Kleinfinger, *A new geometric notation for open and closed-loop robots*, ICRA 1986.
+
+use super::rotation::{PlanarTurn, Turn};
+use crate::model::Motion;
+use crate::spatial::{Matrix3, Pose, PseudoInertia, Scalar, Vector3};
+
+/// A moving link in normal form.
+#[derive(Clone, Copy, Debug)]
+pub struct NormalLink<S> {
+    /// The parent link, of smaller index; `None` is the base.
+    pub parent: Option<usize>,
+    /// How the joint moves.
+    pub motion: Motion,
+    /// The constant turn `R_PJ` from the parent's frame to the joint's.
+    pub turn: Turn<S>,
+    /// The constant turn about z that adds to the joint's own.
+    pub offset: Offset<S>,
+    /// The origin of the joint's frame in the parent's frame, at `q = 0`.
+    pub position: Vector3<S>,
+    /// The mass that the recursions see, in the link's frame.
+    pub inertia: PseudoInertia<S>,
+}
+
+/// A constant turn about z.
+#[derive(Clone, Copy, Debug)]
+pub enum Offset<S> {
+    /// A multiple of 90°, from 0 to 3: it costs nothing.
+    Quarters(u8),
+    /// Any other angle.
+    Angle {
+        /// The angle, rad.
+        angle: S,
+        /// Its cosine and sine.
+        turn: PlanarTurn<S>,
+    },
+}
+
+impl<S: Scalar> Offset<S> {
+    /// The cosine and sine of the offset alone.
+    pub fn turn(self) -> PlanarTurn<S> {
+        match self {
+            Offset::Quarters(quarters) => PlanarTurn::identity().plus_quarters(quarters),
+            Offset::Angle { turn, .. } => turn,
+        }
+    }
+
+    /// The cosine and sine of `q + offset`.
+    fn of_joint(self, q: S) -> PlanarTurn<S> {
+        match self {
+            Offset::Quarters(quarters) => PlanarTurn::of_angle(q).plus_quarters(quarters),
+            Offset::Angle { angle, .. } => PlanarTurn::of_angle(q + angle),
+        }
+    }
+}
+
+/// A frame at rest on a link (on the base, without a link).
+#[derive(Clone, Debug)]
+pub struct NormalFrame<S> {
+    /// The name of the body.
+    pub name: String,
+    /// The link that carries it.
+    pub link: Option<usize>,
+    /// Its pose in the link's frame; in the world, without a link.
+    pub pose: Pose<S>,
+}
+
+/// A tree of links in normal form.
+#[derive(Clone, Debug)]
+pub struct NormalTree<S> {
+    /// The moving links, parents before children.
+    pub links: Vec<NormalLink<S>>,
+    /// The base frame in the world.
+    pub base: Pose<S>,
+    /// Mass at rest, in the base frame. Only the potential energy sees it.
+    pub at_rest: PseudoInertia<S>,
+    /// The acceleration of free fall in base axes.
+    pub gravity: Vector3<S>,
+    /// The frames of the bodies.
+    pub frames: Vec<NormalFrame<S>>,
+}
+
+impl<S: Scalar> NormalTree<S> {
+    /// The number of degrees of freedom.
+    pub fn dof(&self) -> usize {
+        self.links.len()
+    }
+
+    /// The joints at the configuration `q`.
+    pub fn place(&self, q: &[S]) -> Vec<PlacedJoint<S>> {
+        self.links.iter().zip(q).map(|(link, &q)| PlacedJoint::new(link, q)).collect()
+    }
+
+    /// The links from `link` down to the base, `link` first.
+    pub fn path_to_base(&self, link: usize) -> impl Iterator<Item = usize> + '_ {
+        std::iter::successors(Some(link), |&k| self.links[k].parent)
+    }
+}
+
+/// A joint at a configuration: the pose of the link in its parent's frame, ready to be applied.
+#[derive(Clone, Copy, Debug)]
+pub struct PlacedJoint<S> {
+    /// The constant part of the rotation.
+    pub constant: Turn<S>,
+    /// The turn about the joint's own z.
+    pub about_z: PlanarTurn<S>,
+    /// The origin of the link's frame in the parent's frame.
+    pub position: Vector3<S>,
+    /// The joint's axis in the parent's frame.
+    pub axis: Vector3<S>,
+    /// Revolute or prismatic.
+    pub motion: Motion,
+}
+
+impl<S: Scalar> PlacedJoint<S> {
+    fn new(link: &NormalLink<S>, q: S) -> Self {
+        let axis = link.turn.up(Vector3::unit_z());
+        let (about_z, position) = match link.motion {
+            Motion::Revolute => (link.offset.of_joint(q), link.position),
+            Motion::Prismatic => (link.offset.turn(), link.position + axis.scale(q)),
+        };
+        Self { constant: link.turn, about_z, position, axis, motion: link.motion }
+    }
+
+    /// `R_PLᵀ v`: from the parent's axes to the link's.
+    pub fn down(&self, v: Vector3<S>) -> Vector3<S> {
+        self.about_z.down(self.constant.down(v))
+    }
+
+    /// `R_PL v`: from the link's axes to the parent's.
+    pub fn up(&self, v: Vector3<S>) -> Vector3<S> {
+        self.constant.up(self.about_z.up(v))
+    }
+
+    /// `R_PL`
+    pub fn rotation(&self) -> Matrix3<S> {
+        self.constant.matrix() * Matrix3::rotation_z(self.about_z.cos, self.about_z.sin)
+    }
+
+    /// Whether the rotation to the parent only permutes the axes.
+    pub fn permutes_axes(&self) -> bool {
+        self.rotation().0.iter().flatten().all(|x| x.as_sign().is_some())
+    }
+
+    /// Whether the joint's axis is one of the parent's axes, up to its sign.
+    pub fn axis_is_a_parent_axis(&self) -> bool {
+        self.axis.0.iter().all(|x| x.as_sign().is_some())
+    }
+}

@@ -1,0 +1,27 @@
+//! The mass matrix by its definition: the inertia of every link, seen through the link's Jacobian.
+//!
+//! Not the composite-rigid-body algorithm, which the specialised recursions use, and not columns of inverse
+//! dynamics, with which it can then be compared.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::kinematics::{jacobian_columns, link_poses};
+use super::six::Matrix6;
+use crate::model::Tree;
+use crate::spatial::Scalar;
+
+/// `M(q) = Σ J_Bᵀ M_B J_B` over all links, n×n, both halves.
+pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
+    let poses = link_poses(tree, q);
+    let mut M = vec![vec![S::zero(); tree.dof()]; tree.dof()];
+    for (k, link) in tree.links.iter().enumerate() {
+        let M_B = Matrix6::inertia(&link.inertia);
+        let J_B = jacobian_columns(tree, &poses, Some(k), poses[k].inverse());
+        for (j, &column) in J_B.iter().enumerate() {
+            let momentum = M_B * column;
+            for (i, &other) in J_B.iter().enumerate() {
+                M[i][j] = M[i][j] + other.dot(momentum);
+            }
+        }
+    }
+    M
+}

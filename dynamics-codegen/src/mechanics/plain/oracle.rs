@@ -1,0 +1,205 @@
+//! All answers about one tree in doubles, with derivatives, forward dynamics and residuals.
+//!
+//! Derivatives of inverse dynamics are those of the recursion itself, by [`Dual`] numbers. Forward dynamics
+//! solves with the mass matrix, and its derivatives follow from `ID(q, v, FD(q, v, τ)) = τ`.
+//!
+//! J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018, section II.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::dense::{Cholesky, Rows, identity, largest, magnitudes, product, times, transpose};
+use super::{
+    Dual, bias_forces, coriolis_matrix, energy, gravity_forces, inverse_dynamics, kinematics, mass_matrix,
+};
+use crate::model::Tree;
+use crate::spatial::Pose;
+
+/// A tree whose questions are answered by the textbook.
+#[derive(Clone, Copy, Debug)]
+pub struct Oracle<'t> {
+    /// The tree.
+    pub tree: &'t Tree<f64>,
+}
+
+/// The derivatives of `τ = ID(q, v, a)`, n×n each.
+#[derive(Clone, Debug)]
+pub struct InverseDynamicsDerivatives {
+    /// `∂τ/∂q`
+    pub dtau_dq: Rows,
+    /// `∂τ/∂v`
+    pub dtau_dv: Rows,
+    /// `∂τ/∂a = M(q)`
+    pub dtau_da: Rows,
+}
+
+/// The derivatives of `a = FD(q, v, τ)`, n×n each.
+#[derive(Clone, Debug)]
+pub struct ForwardDynamicsDerivatives {
+    /// `∂a/∂q = −M⁻¹ ∂τ/∂q`
+    pub da_dq: Rows,
+    /// `∂a/∂v = −M⁻¹ ∂τ/∂v`
+    pub da_dv: Rows,
+    /// `∂a/∂τ = M⁻¹`
+    pub da_dtau: Rows,
+}
+
+impl<'t> Oracle<'t> {
+    /// The oracle for `tree`.
+    pub fn new(tree: &'t Tree<f64>) -> Self {
+        Self { tree }
+    }
+
+    /// `M(q)`, n×n, both halves.
+    pub fn mass_matrix(&self, q: &[f64]) -> Rows {
+        mass_matrix(self.tree, q)
+    }
+
+    /// `C(q,v)`, n×n, of Christoffel symbols.
+    pub fn coriolis_matrix(&self, q: &[f64], v: &[f64]) -> Rows {
+        coriolis_matrix(self.tree, q, v)
+    }
+
+    /// `G(q) = ∂V/∂q`
+    pub fn gravity_forces(&self, q: &[f64]) -> Vec<f64> {
+        gravity_forces(self.tree, q)
+    }
+
+    /// `C(q,v)·v + G(q)`
+    pub fn bias_forces(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        bias_forces(self.tree, q, v)
+    }
+
+    /// `τ = M·a + C·v + G`
+    pub fn inverse_dynamics(&self, q: &[f64], v: &[f64], a: &[f64]) -> Vec<f64> {
+        inverse_dynamics(self.tree, q, v, a)
+    }
+
+    /// `a = M⁻¹ (τ − C·v − G)`; `None` if M is not positive definite in doubles.
+    pub fn forward_dynamics(&self, q: &[f64], v: &[f64], tau: &[f64]) -> Option<Vec<f64>> {
+        let h = self.bias_forces(q, v);
+        let free: Vec<f64> = tau.iter().zip(&h).map(|(tau, h)| tau - h).collect();
+        Some(Cholesky::of(&self.mass_matrix(q))?.solve(&free))
+    }
+
+    /// `T`, J.
+    pub fn kinetic_energy(&self, q: &[f64], v: &[f64]) -> f64 {
+        energy::kinetic_energy(self.tree, q, v)
+    }
+
+    /// `V`, J, zero for mass at the world's origin.
+    pub fn potential_energy(&self, q: &[f64]) -> f64 {
+        energy::potential_energy(self.tree, q)
+    }
+
+    /// `L = T − V`, J.
+    pub fn lagrangian(&self, q: &[f64], v: &[f64]) -> f64 {
+        energy::lagrangian(self.tree, q, v)
+    }
+
+    /// The pose of the tree's frame number `frame` in the world.
+    pub fn pose(&self, frame: usize, q: &[f64]) -> Pose<f64> {
+        kinematics::pose(self.tree, &self.tree.frames[frame], q)
+    }
+
+    /// The 6×n Jacobian of a frame in its own axes, linear rows first.
+    pub fn body_jacobian(&self, frame: usize, q: &[f64]) -> Rows {
+        kinematics::body_jacobian(self.tree, &self.tree.frames[frame], q)
+    }
+
+    /// The 6×n Jacobian of a frame in world axes, linear rows first, of the frame's own origin.
+    pub fn world_jacobian(&self, frame: usize, q: &[f64]) -> Rows {
+        kinematics::world_jacobian(self.tree, &self.tree.frames[frame], q)
+    }
+
+    /// `∂τ/∂q`, `∂τ/∂v`, `∂τ/∂a` of inverse dynamics.
+    pub fn inverse_dynamics_derivatives(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+    ) -> InverseDynamicsDerivatives {
+        let tree = self.tree.map(Dual::constant);
+        let rest = vec![0.0; q.len()];
+        let along = |dq: &[f64], dv: &[f64]| -> Vec<f64> {
+            let (q, v) = (Dual::moving(q, dq), Dual::moving(v, dv));
+            inverse_dynamics(&tree, &q, &v, &Dual::resting(a)).into_iter().map(|tau| tau.tangent).collect()
+        };
+        let units = identity(q.len());
+        let by_q: Rows = units.iter().map(|unit| along(unit, &rest)).collect();
+        let by_v: Rows = units.iter().map(|unit| along(&rest, unit)).collect();
+        InverseDynamicsDerivatives {
+            dtau_dq: transpose(&by_q),
+            dtau_dv: transpose(&by_v),
+            dtau_da: self.mass_matrix(q),
+        }
+    }
+
+    /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ` of forward dynamics; `None` if M is not positive definite in doubles.
+    pub fn forward_dynamics_derivatives(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        tau: &[f64],
+    ) -> Option<ForwardDynamicsDerivatives> {
+        let a = self.forward_dynamics(q, v, tau)?;
+        let InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da } =
+            self.inverse_dynamics_derivatives(q, v, &a);
+        let factor = Cholesky::of(&dtau_da)?;
+        Some(ForwardDynamicsDerivatives {
+            da_dq: factor.solve_columns(&negative(&dtau_dq)),
+            da_dv: factor.solve_columns(&negative(&dtau_dv)),
+            da_dtau: factor.solve_columns(&identity(q.len())),
+        })
+    }
+
+    /// How far claimed accelerations miss the equations: `‖ID(q,v,a) − τ‖` over `‖|M||a| + |h| + |τ|‖`, in the
+    /// largest entry.
+    ///
+    /// Of the order of the rounding for any stable solver, however ill-conditioned M is, while the error of `a`
+    /// itself grows with the condition (J. Rigal, J. Gaches 1967).
+    pub fn forward_dynamics_residual(&self, q: &[f64], v: &[f64], tau: &[f64], a: &[f64]) -> f64 {
+        let missed =
+            self.inverse_dynamics(q, v, a).iter().zip(tau).map(|(id, tau)| id - tau).collect::<Vec<_>>();
+        let inertial =
+            times(&magnitudes(&self.mass_matrix(q)), &a.iter().map(|a| a.abs()).collect::<Vec<_>>());
+        let h = self.bias_forces(q, v);
+        let scale: Vec<f64> =
+            inertial.iter().zip(&h).zip(tau).map(|((ma, h), tau)| ma + h.abs() + tau.abs()).collect();
+        relative(largest(&missed), largest(&scale))
+    }
+
+    /// How far claimed derivatives of forward dynamics miss `M·∂a/∂x = −∂τ/∂x` and `M·∂a/∂τ = 1`: the largest of
+    /// the three, each over `‖|M||∂a| + |∂τ|‖` in the largest entry.
+    pub fn forward_dynamics_derivatives_residual(
+        &self,
+        q: &[f64],
+        v: &[f64],
+        a: &[f64],
+        claimed: &ForwardDynamicsDerivatives,
+    ) -> f64 {
+        let InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da } =
+            self.inverse_dynamics_derivatives(q, v, a);
+        let of = |X: &Rows, B: &Rows| {
+            let scale = sum(&product(&magnitudes(&dtau_da), &magnitudes(X)), &magnitudes(B));
+            let missed = sum(&product(&dtau_da, X), &negative(B));
+            relative(largest(missed.iter().flatten()), largest(scale.iter().flatten()))
+        };
+        largest(&[
+            of(&claimed.da_dq, &negative(&dtau_dq)),
+            of(&claimed.da_dv, &negative(&dtau_dv)),
+            of(&claimed.da_dtau, &identity(q.len())),
+        ])
+    }
+}
+
+/// `missed / scale`, and zero if nothing is missed.
+fn relative(missed: f64, scale: f64) -> f64 {
+    if missed == 0.0 { 0.0 } else { missed / scale }
+}
+
+fn negative(A: &Rows) -> Rows {
+    A.iter().map(|row| row.iter().map(|x| -x).collect()).collect()
+}
+
+fn sum(A: &Rows, B: &Rows) -> Rows {
+    A.iter().zip(B).map(|(a, b)| a.iter().zip(b).map(|(x, y)| x + y).collect()).collect()
+}

@@ -1,0 +1,155 @@
+//! Specification to model: each phase judges, and the next builds only on what was found sound.
+
+use super::dimensions::Units;
+use super::fields::{field_type, parameters};
+use super::placement::Geometry;
+use super::quantities::slots;
+use super::shapes::{pseudo_inertia, snap_of};
+use super::topology::Topology;
+use super::values::Values;
+use super::{Frame, JointInfo, Limits, Link, Model, Motion, Tree, lines, physics};
+use crate::diagnostics::Diagnostics;
+use crate::spatial::{Pose, PseudoInertia, Vector3};
+use crate::spec::{Formula, JointKind, JointSpec, RobotSpec};
+use crate::symbolic::{Expr, Graph, Number};
+
+/// The robot that a specification means, or `None` and at least one mistake.
+///
+/// The frames are the bodies, each where its `#[body]` was written; a child of a fixed joint without
+/// `#[body]` is where its joint was written.
+pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) -> Option<Model<'g>> {
+    let before = diags.len();
+    let slots = slots(spec);
+    lines::check(spec, &slots, diags);
+    let values = Values::new(spec, &slots, graph, diags);
+    let units = Units::infer(&values, &slots, diags);
+    let field_type = field_type(spec, &values, diags);
+    let topology = Topology::of(spec, diags);
+    if diags.len() > before {
+        return None;
+    }
+    let topology = topology?;
+    physics::check_numbers(spec, &values, diags);
+    let tree = Assembly { spec, values: &values, topology: &topology }.tree(diags);
+    let joints = joint_infos(spec, &values, diags);
+    let parameters = parameters(&values, &units, &slots);
+    let tree = tree.filter(|_| diags.len() == before)?;
+    physics::check_links(spec, &topology, &tree, diags);
+    let model = Model { name: spec.ident.to_string(), field_type: field_type?, parameters, joints, tree };
+    (diags.len() == before).then_some(model)
+}
+
+/// What the tree is made of.
+struct Assembly<'a, 'g> {
+    spec: &'a RobotSpec,
+    values: &'a Values<'a, 'g>,
+    topology: &'a Topology,
+}
+
+/// Where a body is: on which link, and how.
+#[derive(Clone, Copy)]
+struct Site<'g> {
+    link: Option<usize>,
+    pose: Pose<Expr<'g>>,
+}
+
+impl<'g> Assembly<'_, 'g> {
+    fn tree(&self, diags: &mut Diagnostics) -> Option<Tree<Expr<'g>>> {
+        let before = diags.len();
+        let geometry: Vec<_> = self.spec.joints.iter().map(|joint| self.geometry(joint, diags)).collect();
+        let gravity = match &self.spec.options.gravity {
+            Some(parts) => diags.keep(self.values.vector(parts)),
+            None => Some(Vector3([Expr::ZERO, Expr::ZERO, Expr::Constant(Number::ratio(-981, 100))])),
+        };
+        let geometry: Vec<_> = geometry.into_iter().flatten().collect();
+        let masses = self.masses(diags);
+        if diags.len() > before {
+            return None;
+        }
+        let (sites, links) = self.links(&geometry);
+        let mut tree = Tree { links, base: PseudoInertia::zero(), frames: vec![], gravity: gravity? };
+        for (joint, mass) in masses.into_iter().enumerate() {
+            let Some(mass) = mass else { continue };
+            let mass = mass.transformed(sites[joint].pose);
+            match sites[joint].link {
+                Some(link) => tree.links[link].inertia = tree.links[link].inertia + mass,
+                None => tree.base = tree.base + mass,
+            }
+        }
+        tree.frames = self.frames(&sites);
+        Some(tree)
+    }
+
+    fn geometry(&self, joint: &JointSpec, diags: &mut Diagnostics) -> Option<Geometry<'g>> {
+        diags.keep(Geometry::of(joint, self.values, snap_of(self.spec)))
+    }
+
+    /// The mass of the body that each joint carries, in its own frame.
+    fn masses(&self, diags: &mut Diagnostics) -> Vec<Option<PseudoInertia<Expr<'g>>>> {
+        let mut masses = vec![None; self.spec.joints.len()];
+        for body in &self.spec.bodies {
+            let mass = diags.keep(pseudo_inertia(body, self.spec, self.values));
+            let carrier = self.spec.joints.iter().position(|joint| joint.child.text == body.name.text);
+            if let Some(carrier) = carrier {
+                masses[carrier] = mass;
+            }
+        }
+        masses
+    }
+
+    /// The place of the body that each joint carries, and the links without their masses.
+    fn links(&self, geometry: &[Geometry<'g>]) -> (Vec<Site<'g>>, Vec<Link<Expr<'g>>>) {
+        let world = Site { link: None, pose: Pose::identity() };
+        let mut sites = vec![world; self.spec.joints.len()];
+        let mut links = vec![];
+        for &joint in &self.topology.order {
+            let parent = self.topology.carrier[joint].map_or(world, |carrier| sites[carrier]);
+            let placement = parent.pose * geometry[joint].link;
+            sites[joint] = match self.topology.coordinate[joint] {
+                None => Site { pose: placement * geometry[joint].body, ..parent },
+                Some(coordinate) => {
+                    let motion = match self.spec.joints[joint].kind {
+                        JointKind::Prismatic => Motion::Prismatic,
+                        _ => Motion::Revolute,
+                    };
+                    let inertia = PseudoInertia::zero();
+                    links.push((coordinate, Link { parent: parent.link, motion, placement, inertia }));
+                    Site { link: Some(coordinate), pose: geometry[joint].body }
+                }
+            };
+        }
+        links.sort_by_key(|(coordinate, _)| *coordinate);
+        (sites, links.into_iter().map(|(_, link)| link).collect())
+    }
+
+    fn frames(&self, sites: &[Site<'g>]) -> Vec<Frame<Expr<'g>>> {
+        let mut frames: Vec<(usize, Frame<_>)> = vec![];
+        for (joint, site) in self.spec.joints.iter().zip(sites) {
+            let body = self.spec.bodies.iter().find(|body| body.name.text == joint.child.text);
+            let line = body.map_or(joint.line, |body| body.line);
+            frames.push((line, Frame { name: joint.child.text.clone(), link: site.link, pose: site.pose }));
+        }
+        frames.sort_by_key(|(line, _)| *line);
+        frames.into_iter().map(|(_, frame)| frame).collect()
+    }
+}
+
+fn joint_infos(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) -> Vec<JointInfo> {
+    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed);
+    moving
+        .map(|joint| JointInfo { name: joint.name.text.clone(), limits: limits(joint, values, diags) })
+        .collect()
+}
+
+fn limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) -> Limits {
+    let mut number = |formula: Option<&Formula>, missing: f64| {
+        let value = formula.and_then(|formula| diags.keep(values.number(formula)));
+        value.map_or(missing, Number::to_f64)
+    };
+    Limits {
+        lower: number(joint.limits.as_ref().map(|[lower, _]| lower), f64::NEG_INFINITY),
+        upper: number(joint.limits.as_ref().map(|[_, upper]| upper), f64::INFINITY),
+        velocity: number(joint.velocity.as_ref(), f64::INFINITY),
+        effort: number(joint.effort.as_ref(), f64::INFINITY),
+    }
+}

@@ -1,0 +1,95 @@
+//! What a specification means: a checked tree of bodies, its quantities expressions of the robot's fields.
+
+mod build;
+mod dimensions;
+mod fields;
+mod lines;
+pub mod names;
+mod physics;
+mod placement;
+mod quantities;
+mod shapes;
+mod topology;
+mod tree;
+mod unit_text;
+mod values;
+
+pub use build::build;
+pub use lines::OUTPUTS;
+pub use tree::{Frame, Link, Motion, Tree};
+
+use crate::symbolic::{Expr, SymbolId};
+
+/// A field of the robot's struct that the equations depend on.
+#[derive(Clone, Debug)]
+pub struct Parameter {
+    /// The field's name.
+    pub name: String,
+    /// The input of the graph that stands for it.
+    pub symbol: SymbolId,
+    /// A physical value for tests of the expansion: positive, of the size of one.
+    pub sample: f64,
+    /// Its unit as its uses tell it, as `kg·m²`; `1` of angles and plain numbers; nothing if they do not tell.
+    pub unit: Option<String>,
+}
+
+/// The type of the fields that the equations use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum FieldType {
+    /// A type parameter of the struct.
+    Generic(syn::Ident),
+    /// `f32`
+    F32,
+    /// `f64`
+    F64,
+    /// No field is used, and the struct has no parameter to tell: any scalar will do.
+    Unused,
+}
+
+impl std::fmt::Display for FieldType {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Generic(ident) => write!(f, "{ident}"),
+            Self::F32 => f.write_str("f32"),
+            Self::F64 => f.write_str("f64"),
+            Self::Unused => f.write_str("any scalar"),
+        }
+    }
+}
+
+/// The limits of a joint, as written; infinite where nothing was.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Smallest coordinate, rad or m.
+    pub lower: f64,
+    /// Largest coordinate, rad or m.
+    pub upper: f64,
+    /// Largest speed, rad/s or m/s.
+    pub velocity: f64,
+    /// Largest force, N·m or N.
+    pub effort: f64,
+}
+
+/// A joint as users see it. The joint `k` moves the link `k`.
+#[derive(Clone, Debug)]
+pub struct JointInfo {
+    /// The joint's name.
+    pub name: String,
+    /// Its limits.
+    pub limits: Limits,
+}
+
+/// A checked robot.
+#[derive(Clone, Debug)]
+pub struct Model<'g> {
+    /// The robot's name.
+    pub name: String,
+    /// The type of the fields that the equations use.
+    pub field_type: FieldType,
+    /// The fields that the equations use, in order of declaration.
+    pub parameters: Vec<Parameter>,
+    /// The moving joints, in the order of their coordinates.
+    pub joints: Vec<JointInfo>,
+    /// The kinematics and the masses. Its frames are the bodies, in order of declaration.
+    pub tree: Tree<Expr<'g>>,
+}

@@ -1,0 +1,63 @@
+//! How names of joints and bodies become Rust identifiers.
+
+/// `left_arm2`, `LeftArm2`, `leftArm2` → `LeftArm2`
+pub fn upper_camel_case(name: &str) -> String {
+    let capitalised = |word: String| {
+        let mut letters = word.chars();
+        letters
+            .next()
+            .map(|first| first.to_uppercase().chain(letters).collect::<String>())
+            .unwrap_or_default()
+    };
+    words(name).into_iter().map(capitalised).collect()
+}
+
+/// `LeftArm2`, `leftArm2`, `left_arm2` → `left_arm2`
+pub fn snake_case(name: &str) -> String {
+    words(name).join("_")
+}
+
+/// The words of a name, in lower case: a new one begins after an underscore or any other sign, at a capital
+/// after a small letter or a digit, and at the last of several capitals before a small letter.
+fn words(name: &str) -> Vec<String> {
+    let letters: Vec<char> = name.chars().collect();
+    let mut words = vec![];
+    let mut word = String::new();
+    for (i, &letter) in letters.iter().enumerate() {
+        let before = i.checked_sub(1).map(|before| letters[before]);
+        let after_small = before.is_some_and(|c| c.is_alphanumeric() && !c.is_uppercase());
+        let before_small = letters.get(i + 1).is_some_and(|c| c.is_lowercase());
+        if !letter.is_alphanumeric() || (letter.is_uppercase() && (after_small || before_small)) {
+            words.push(std::mem::take(&mut word));
+        }
+        if letter.is_alphanumeric() {
+            word.extend(letter.to_lowercase());
+        }
+    }
+    words.push(word);
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{snake_case, upper_camel_case};
+
+    #[test]
+    fn words_are_found_in_every_case() {
+        for (name, camel, snake) in [
+            ("left_arm2", "LeftArm2", "left_arm2"),
+            ("leftArm2", "LeftArm2", "left_arm2"),
+            ("IMULink", "ImuLink", "imu_link"),
+            ("link_a/b", "LinkAB", "link_a_b"),
+            ("__", "", ""),
+            ("A", "A", "a"),
+        ] {
+            assert_eq!(
+                (upper_camel_case(name).as_str(), snake_case(name).as_str()),
+                (camel, snake),
+                "{name}"
+            );
+        }
+    }
+}

@@ -1,0 +1,247 @@
+//! Whether the numbers of a robot can be those of bodies. What depends on fields is not judged here.
+
+use super::lines::NONPHYSICAL_INERTIA;
+use super::topology::Topology;
+use super::values::Values;
+use super::{Link, Motion, Tree};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+use crate::spatial::{PseudoInertia, Symmetric3};
+use crate::spec::{BodySpec, Formula, InertiaKind, JointSpec, Name, RobotSpec, Shape};
+use crate::symbolic::{Expr, Number};
+
+/// Checks the numbers of each body and joint by themselves.
+pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) {
+    for body in &spec.bodies {
+        let mass = body.mass.as_ref().or(body.solid.as_ref().map(|solid| &*solid.mass));
+        if let Some((formula, mass)) = mass.and_then(|mass| Some((mass, constant(values, mass)?)))
+            && mass.signum() <= 0
+        {
+            let message = format!("the mass of `{}` is {mass} kg", body.name);
+            diags.error(Code::MassNotPositive, &formula.place, message);
+        }
+        check_sizes(body, values, diags);
+        check_tensor(body, values, diags);
+    }
+    for joint in &spec.joints {
+        check_limits(joint, values, diags);
+    }
+}
+
+fn constant(values: &Values, formula: &Formula) -> Option<Number> {
+    values.scalar(formula).ok()?.as_number()
+}
+
+fn check_sizes(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
+    let Some(solid) = &body.solid else { return };
+    let sizes: Vec<&Formula> = match &solid.shape {
+        Shape::Cuboid(edges) => edges.iter().collect(),
+        Shape::Cylinder(size, _) => size.iter().collect(),
+        Shape::Sphere(size) | Shape::Rod(size, _) => vec![&**size],
+        Shape::Point => vec![],
+    };
+    for size in sizes {
+        if let Some(value) = constant(values, size).filter(|value| value.is_negative()) {
+            let message = format!("a size of `{}` is {value} m", body.name);
+            diags.error(Code::SizeNegative, &size.place, message);
+        }
+    }
+}
+
+/// A matrix is symmetric, and a tensor is not the first rows of a matrix.
+fn check_tensor(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
+    let name = &body.name;
+    match body.inertia.as_ref().map(|inertia| &inertia.kind) {
+        Some(InertiaKind::Tensor(parts)) => {
+            let [ixx, ixy, ixz, iyy, iyz, izz] = parts.each_ref().map(|part| constant(values, part));
+            let all = [ixx, ixz, iyz, izz].iter().all(Option::is_some);
+            if let (Some(ixy), Some(iyy), true) = (ixy, iyy, all)
+                && ixy == iyy
+                && !ixy.is_zero()
+            {
+                let message =
+                    format!("ixy and iyy of `{name}` are both {ixy} kg·m², as in a matrix read by rows");
+                diags.error(Code::InertiaOrder, &parts[1].place.to(&parts[3].place), message);
+            }
+        }
+        Some(InertiaKind::Matrix(rows)) => {
+            for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+                let (above, below) = (&rows[i][j], &rows[j][i]);
+                if let (Ok(a), Ok(b)) = (values.scalar(above), values.scalar(below))
+                    && a != b
+                {
+                    let (row, column) = (i + 1, j + 1);
+                    let (above, below) = (above.short_text(), below.short_text());
+                    let message = format!(
+                        "the inertia of `{name}` is not symmetric: row {row}, column {column} is `{above}`, and row \
+                         {column}, column {row} is `{below}`"
+                    );
+                    diags.error(Code::InertiaNotSymmetric, &rows[j][i].place, message);
+                }
+            }
+        }
+        _ => {}
+    }
+}
+
+fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
+    let name = &joint.name;
+    if let Some([lower, upper]) = &joint.limits
+        && let (Some(low), Some(high)) = (constant(values, lower), constant(values, upper))
+        && !low.cmp_value(high).is_lt()
+    {
+        let message = format!("the limits of `{name}` leave no room: from {low} to {high}");
+        diags.error(Code::LimitsInverted, &lower.place.to(&upper.place), message);
+    }
+    for (key, limit) in [("velocity", &joint.velocity), ("effort", &joint.effort)] {
+        if let Some(limit) = limit
+            && let Some(value) = constant(values, limit).filter(|value| value.is_negative())
+        {
+            diags.error(Code::LimitNegative, &limit.place, format!("the {key} limit of `{name}` is {value}"));
+        }
+    }
+}
+
+/// Checks what moves: each link with all that is welded to it.
+pub(super) fn check_links(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr>, diags: &mut Diagnostics) {
+    let finite = finite(tree);
+    if !finite {
+        let message = "the numbers of the robot are too large to compute with";
+        diags.error(Code::NumberOutOfRange, &Place::of(&spec.ident), message);
+        return;
+    }
+    let mut heavy = vec![false; tree.links.len()];
+    for (k, link) in tree.links.iter().enumerate().rev() {
+        let beyond = heavy[k];
+        heavy[k] |= !link.inertia.mass.is_zero();
+        if let Some(parent) = link.parent.filter(|_| heavy[k]) {
+            heavy[parent] = true;
+        }
+        let Some(joint) = joint_of(spec, topology, k) else { continue };
+        check_moved(joint, link, heavy[k], beyond, diags);
+    }
+    let all_allowed = allows(spec.options.allow.as_deref());
+    let links = topology.links();
+    for (k, link) in tree.links.iter().enumerate().filter(|_| !all_allowed) {
+        let on_link = |body: &&BodySpec| {
+            let carrier = spec.joints.iter().position(|joint| joint.child.text == body.name.text);
+            carrier.is_some_and(|carrier| links[carrier] == Some(k))
+        };
+        let bodies: Vec<_> = spec.bodies.iter().filter(on_link).collect();
+        if !bodies.iter().any(|body| allows(body.allow.as_deref())) {
+            check_inertia(&bodies, link.inertia, diags);
+        }
+    }
+}
+
+fn finite(tree: &Tree<Expr>) -> bool {
+    let mut finite = true;
+    let _ = tree.map(|entry| {
+        finite &= entry.as_number().is_none_or(|value| value.is_finite() && value.to_f64().is_finite());
+        0.0
+    });
+    finite
+}
+
+fn joint_of<'s>(spec: &'s RobotSpec, topology: &Topology, link: usize) -> Option<&'s JointSpec> {
+    topology
+        .coordinate
+        .iter()
+        .position(|coordinate| *coordinate == Some(link))
+        .map(|joint| &spec.joints[joint])
+}
+
+/// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are.
+fn check_moved(joint: &JointSpec, link: &Link<Expr>, heavy: bool, beyond: bool, diags: &mut Diagnostics) {
+    let (name, child) = (&joint.name, &joint.child);
+    let place = &joint.name.place;
+    if !heavy {
+        let message =
+            format!("the joint `{name}` moves no mass: neither `{child}` nor what it carries has any");
+        diags.error(Code::MovesNoMass, place, message);
+    } else if !beyond && link.motion == Motion::Revolute && turns_nothing(link.inertia) {
+        let message = format!("the joint `{name}` turns no inertia: all mass of `{child}` is on its axis");
+        diags.error(Code::MovesNoInertia, place, message);
+    }
+}
+
+fn turns_nothing(inertia: PseudoInertia<Expr>) -> bool {
+    let moment = inertia.rotational().zz;
+    let size = inertia.rotational().full().trace().as_number().map_or(0.0, Number::to_f64);
+    moment.as_number().is_some_and(|moment| moment.to_f64().abs() <= 1e-12 * size)
+}
+
+fn allows(names: Option<&[Name]>) -> bool {
+    names.into_iter().flatten().any(|name| name.text == NONPHYSICAL_INERTIA)
+}
+
+/// `∫r rᵀ dm` about the centre of mass is positive semidefinite, if it is known.
+fn check_inertia(bodies: &[&BodySpec], inertia: PseudoInertia<Expr>, diags: &mut Diagnostics) {
+    let Some([low, middle, high]) = second_moments(inertia) else { return };
+    if low >= -1e-6 * high.abs().max(middle.abs()) {
+        return;
+    }
+    let Some(body) = bodies.iter().find(|body| body.mass.is_some()).or(bodies.first()) else { return };
+    let place = body.inertia.as_ref().map_or(&body.place, |inertia| &inertia.place);
+    let moments = [low + middle, low + high, middle + high];
+    let [a, b, c] = moments.map(significant);
+    let names = bodies.iter().filter(|body| body.mass.is_some() || body.solid.is_some());
+    let names = names.map(|body| format!("`{}`", body.name)).collect::<Vec<_>>().join(" and ");
+    let rule = if moments[0] < 0.0 {
+        format!("{a} is negative")
+    } else {
+        format!("{c} is more than {a} + {b}, so no distribution of mass has them")
+    };
+    let message = format!("the principal moments of inertia of {names} are {a}, {b} and {c} kg·m²: {rule}");
+    let allowed = format!("{}, or accept it: `{}`", Code::InertiaNonphysical.help(), allowing(body));
+    diags.push(Diagnostic::new(Code::InertiaNonphysical, place, message).help(allowed));
+}
+
+/// The body's line with the permission.
+fn allowing(body: &BodySpec) -> String {
+    let text: String = body.written.to_string().chars().filter(|c| !c.is_whitespace()).collect();
+    let text = text.trim_end_matches(',').replace(',', ", ").replace('=', " = ");
+    format!("#[body({text}, allow({NONPHYSICAL_INERTIA}))]")
+}
+
+/// The eigenvalues of `∫r rᵀ dm` about the centre of mass, in order; `None` if one of the parts is a field's.
+fn second_moments(inertia: PseudoInertia<Expr>) -> Option<[f64; 3]> {
+    let mass = inertia.mass.as_number().filter(|mass| mass.signum() > 0)?;
+    let inverse = Expr::Constant(Number::ONE.checked_div(mass)?);
+    let about_com = inertia.second + Symmetric3::outer_self(-inverse, inertia.first);
+    let Symmetric3 { xx, yy, zz, xy, xz, yz } = about_com;
+    let mut entries = [0.0; 6];
+    for (entry, expr) in entries.iter_mut().zip([xx, yy, zz, xy, xz, yz]) {
+        *entry = expr.as_number()?.to_f64();
+    }
+    let [xx, yy, zz, xy, xz, yz] = entries;
+    Some(eigenvalues([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]))
+}
+
+/// The eigenvalues of a symmetric matrix, in order: Jacobi's rotations.
+fn eigenvalues(mut m: [[f64; 3]; 3]) -> [f64; 3] {
+    for _ in 0..32 {
+        for (p, q) in [(0, 1), (0, 2), (1, 2)] {
+            if m[p][q] == 0.0 {
+                continue;
+            }
+            let slope = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+            let t = slope.signum() / (slope.abs() + (slope * slope + 1.0).sqrt());
+            let c = 1.0 / (t * t + 1.0).sqrt();
+            let s = t * c;
+            for row in &mut m {
+                (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+            }
+            for k in 0..3 {
+                (m[p][k], m[q][k]) = (c * m[p][k] - s * m[q][k], s * m[p][k] + c * m[q][k]);
+            }
+        }
+    }
+    let mut values = [m[0][0], m[1][1], m[2][2]];
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// A value to six significant digits.
+fn significant(value: f64) -> f64 {
+    format!("{value:.5e}").parse().unwrap_or(value)
+}

@@ -1,0 +1,237 @@
+//! Who carries whom: the order of the joints, and all that can be wrong with it.
+
+use rustc_hash::FxHashMap;
+
+use super::names::{snake_case, upper_camel_case};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+use crate::spec::{JointKind, JointSpec, Name, RobotSpec};
+
+/// The name of the root.
+pub(super) const WORLD: &str = "world";
+
+/// The most joints there may be.
+const JOINT_LIMIT: usize = 1000;
+
+/// The tree of joints.
+pub(super) struct Topology {
+    /// All joints that hang on the world, parents before children.
+    pub(super) order: Vec<usize>,
+    /// The joint that carries the parent of each joint; `None` is the world.
+    pub(super) carrier: Vec<Option<usize>>,
+    /// The coordinate of each joint that moves.
+    pub(super) coordinate: Vec<Option<usize>>,
+}
+
+impl Topology {
+    /// Finds the tree, or all reasons why there is none.
+    pub(super) fn of(spec: &RobotSpec, diags: &mut Diagnostics) -> Option<Self> {
+        let before = diags.len();
+        check_size(spec, diags);
+        if diags.len() > before {
+            return None;
+        }
+        check_names(spec, diags);
+        let carriers = carriers(spec, diags);
+        check_bodies(spec, &carriers, diags);
+        let topology = Self::connected(spec, &carriers);
+        check_parents(spec, &carriers, diags);
+        if diags.len() == before {
+            check_cycles(spec, &topology, diags);
+            check_order(spec, &topology, diags);
+        }
+        (diags.len() == before).then_some(topology)
+    }
+
+    fn connected(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>) -> Self {
+        let carrier: Vec<_> =
+            spec.joints.iter().map(|joint| carriers.get(&*joint.parent.text).copied()).collect();
+        let mut children = vec![vec![]; spec.joints.len()];
+        let mut order = vec![];
+        for (joint, carrier) in carrier.iter().enumerate() {
+            match carrier {
+                Some(parent) => children[*parent].push(joint),
+                None if spec.joints[joint].parent.text == WORLD => order.push(joint),
+                None => {}
+            }
+        }
+        let mut next = 0;
+        while let Some(&joint) = order.get(next) {
+            order.append(&mut children[joint]);
+            next += 1;
+        }
+        let mut count = 0;
+        let coordinate = spec.joints.iter().map(|joint| {
+            (joint.kind != JointKind::Fixed).then(|| {
+                count += 1;
+                count - 1
+            })
+        });
+        Self { order, coordinate: coordinate.collect(), carrier }
+    }
+
+    /// The coordinate of the nearest joint from here to the world that moves, this one included.
+    pub(super) fn links(&self) -> Vec<Option<usize>> {
+        let mut links = vec![None; self.carrier.len()];
+        for &joint in &self.order {
+            links[joint] = self.coordinate[joint].or_else(|| links[self.carrier[joint]?]);
+        }
+        links
+    }
+}
+
+fn check_size(spec: &RobotSpec, diags: &mut Diagnostics) {
+    let place = Place::of(&spec.ident);
+    let count = spec.joints.len();
+    if count == 0 {
+        diags.error(Code::JointMissing, &place, format!("`{}` has no joint", spec.ident));
+    } else if count > JOINT_LIMIT {
+        diags.error(Code::JointsTooMany, &place, format!("`{}` has {count} joints", spec.ident));
+    } else if spec.joints.iter().all(|joint| joint.kind == JointKind::Fixed) {
+        diags.error(Code::DegreesOfFreedomMissing, &place, format!("no joint of `{}` moves", spec.ident));
+    }
+}
+
+/// The joint that carries each body.
+fn carriers<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> FxHashMap<&'s str, usize> {
+    let mut carriers = FxHashMap::default();
+    for (i, JointSpec { child, name, .. }) in spec.joints.iter().enumerate() {
+        if child.text == WORLD {
+            diags.error(Code::WorldIsChild, &child.place, format!("the joint `{name}` carries the world"));
+            continue;
+        }
+        let first: usize = *carriers.entry(child.text.as_str()).or_insert(i);
+        if first != i {
+            let message = format!("`{child}` is carried by `{}` and by `{name}`", spec.joints[first].name);
+            diags.error(Code::ParentTwice, &child.place, message);
+        }
+    }
+    carriers
+}
+
+/// Names given twice, names that cannot be used, and names that become the same identifier.
+fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
+    distinct("joint", spec.joints.iter().map(|joint| &joint.name), diags);
+    let mut bodies: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).collect();
+    distinct_names("body", bodies.iter().map(|(_, name)| *name), diags);
+    let described: FxHashMap<_, _> = bodies.iter().map(|(_, name)| (name.text.as_str(), ())).collect();
+    let frames = spec.joints.iter().map(|joint| (joint.line, &joint.child));
+    let frames = frames.filter(|(_, name)| name.text != WORLD && !described.contains_key(&*name.text));
+    bodies.extend(frames);
+    bodies.sort_by_key(|(line, _)| *line);
+    distinct_identifiers("body", bodies.into_iter().map(|(_, name)| name), diags);
+}
+
+fn distinct<'s>(what: &str, names: impl Iterator<Item = &'s Name> + Clone, diags: &mut Diagnostics) {
+    distinct_names(what, names.clone(), diags);
+    distinct_identifiers(what, names, diags);
+}
+
+fn distinct_names<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
+    let mut seen = FxHashMap::default();
+    for name in names {
+        if seen.insert(name.text.as_str(), ()).is_some() {
+            diags.error(Code::NameDuplicate, &name.place, format!("there are two {what} lines for `{name}`"));
+        }
+    }
+}
+
+fn distinct_identifiers<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
+    let mut seen: FxHashMap<String, &str> = FxHashMap::default();
+    for name in names {
+        let identifier = upper_camel_case(&name.text);
+        let reserved = matches!(identifier.as_str(), "" | "Self") || name.text == WORLD;
+        if reserved || !identifier.starts_with(|c: char| c.is_alphabetic()) {
+            diags.error(Code::NameReserved, &name.place, format!("`{name}` cannot be the name of a {what}"));
+            continue;
+        }
+        let first = *seen.entry(identifier.clone()).or_insert(&name.text);
+        if first != name.text {
+            let snake = snake_case(&name.text);
+            let message = format!("`{first}` and `{name}` both become `{identifier}`, `{snake}` in Rust");
+            diags.error(Code::NamesCollide, &name.place, message);
+        }
+    }
+}
+
+/// Bodies that no joint carries, and moving joints whose bodies are not described.
+fn check_bodies(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>, diags: &mut Diagnostics) {
+    let described: FxHashMap<_, _> = spec.bodies.iter().map(|body| (body.name.text.as_str(), ())).collect();
+    for body in spec.bodies.iter().filter(|body| body.name.text != WORLD) {
+        let name = &body.name;
+        if !carriers.contains_key(&*name.text) {
+            let message = format!("no joint carries the body `{name}`");
+            let help = format!("carry it by a joint, as in `#[joint({name}_joint: fixed, world -> {name})]`");
+            let open = spec.joints.iter().map(|joint| &*joint.child.text);
+            let open = open.filter(|child| !described.contains_key(child));
+            diags.push(
+                Diagnostic::new(Code::BodyUnreachable, &name.place, message)
+                    .help(help)
+                    .suggest(&name.text, open),
+            );
+        }
+    }
+    for joint in
+        spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed && joint.child.text != WORLD)
+    {
+        let child = &joint.child;
+        if !described.contains_key(&*child.text) {
+            let message = format!("the joint `{}` moves `{child}`, which no `#[body]` describes", joint.name);
+            let loose = spec.bodies.iter().map(|body| &*body.name.text);
+            let loose = loose.filter(|name| !carriers.contains_key(name));
+            diags.push(Diagnostic::new(Code::BodyMissing, &child.place, message).suggest(&child.text, loose));
+        }
+    }
+}
+
+fn check_parents(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>, diags: &mut Diagnostics) {
+    for joint in &spec.joints {
+        let parent = &joint.parent;
+        let loose_body = || spec.bodies.iter().any(|body| body.name.text == parent.text);
+        if parent.text == WORLD || carriers.contains_key(&*parent.text) || loose_body() {
+            continue;
+        }
+        let message = format!("the joint `{}` is on `{parent}`, which is no body", joint.name);
+        let known = spec.joints.iter().map(|joint| &*joint.child.text).chain([WORLD]);
+        diags.push(Diagnostic::new(Code::ParentUnknown, &parent.place, message).suggest(&parent.text, known));
+    }
+}
+
+/// With every parent known, what does not hang on the world hangs on a cycle.
+fn check_cycles(spec: &RobotSpec, topology: &Topology, diags: &mut Diagnostics) {
+    let mut seen = vec![false; spec.joints.len()];
+    for &joint in &topology.order {
+        seen[joint] = true;
+    }
+    for start in 0..spec.joints.len() {
+        let mut path = vec![];
+        let mut at = Some(start);
+        while let Some(joint) = at.filter(|joint| !seen[*joint]) {
+            seen[joint] = true;
+            path.push(joint);
+            at = topology.carrier[joint];
+        }
+        let Some(cycle) = at.and_then(|end| path.iter().position(|joint| *joint == end)) else { continue };
+        let cycle = &path[cycle..];
+        let names =
+            cycle.iter().rev().chain(cycle.last()).map(|joint| spec.joints[*joint].child.text.as_str());
+        let names = names.collect::<Vec<_>>().join(" -> ");
+        let place = &spec.joints[cycle[0]].place;
+        diags.error(Code::Cycle, place, format!("the bodies {names} carry each other"));
+    }
+}
+
+/// A link's parent has the smaller coordinate.
+fn check_order(spec: &RobotSpec, topology: &Topology, diags: &mut Diagnostics) {
+    let links = topology.links();
+    for (joint, spec_of) in spec.joints.iter().enumerate() {
+        let parent = topology.carrier[joint].and_then(|carrier| links[carrier]);
+        let late = |own: usize| parent.is_some_and(|parent| parent > own);
+        if topology.coordinate[joint].is_some_and(late) {
+            let carrier = spec.joints.iter().enumerate().find(|(i, _)| topology.coordinate[*i] == parent);
+            let Some((_, carrier)) = carrier else { continue };
+            let message =
+                format!("the joint `{}` moves `{}`, and comes after it", carrier.name, spec_of.name);
+            diags.error(Code::ParentAfterChild, &carrier.place, message);
+        }
+    }
+}

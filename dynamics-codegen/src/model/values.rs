@@ -1,0 +1,187 @@
+//! Formulas to expressions: fields become inputs of the graph, numbers with units become SI.
+
+use rustc_hash::FxHashMap;
+
+use super::quantities::Slot;
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+use crate::spatial::Vector3;
+use crate::spec::{Factor, Field, Formula, FormulaKind, Function, Name, RobotSpec, Unit};
+use crate::symbolic::{Expr, Graph, Number, SymbolId};
+
+/// A value, or the first mistake in it.
+pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
+
+/// The values of names.
+pub(super) struct Values<'s, 'g> {
+    fields: &'s [Field],
+    /// For look-up only.
+    by_name: FxHashMap<&'s str, usize>,
+    /// The inputs, of the fields that are used.
+    symbols: Vec<Option<Expr<'g>>>,
+}
+
+impl<'s, 'g> Values<'s, 'g> {
+    /// Finds the fields that are used, and numbers them in the order of declaration.
+    pub(super) fn new(
+        spec: &'s RobotSpec,
+        slots: &[Slot<'s>],
+        graph: &'g Graph,
+        diags: &mut Diagnostics,
+    ) -> Self {
+        let fields = &spec.fields;
+        let by_name: FxHashMap<_, _> =
+            fields.iter().enumerate().map(|(i, field)| (&*field.name.text, i)).collect();
+        let mut used = vec![false; fields.len()];
+        for slot in slots {
+            for_each_name(slot.formula, &mut |name| match by_name.get(&*name.text) {
+                Some(&field) if slot.constant.is_none() => used[field] = true,
+                Some(_) => diags.push(field_where_number_is_needed(slot, name)),
+                None if is_pi(name) => {}
+                None => diags.push(unknown_field(fields, name)),
+            });
+        }
+        let mut count = 0;
+        let symbols = used.iter().map(|used| {
+            used.then(|| {
+                count += 1;
+                graph.symbol(SymbolId(count - 1))
+            })
+        });
+        Self { fields, symbols: symbols.collect(), by_name }
+    }
+
+    /// The fields that are used, in order of declaration, as their positions among all fields.
+    pub(super) fn used(&self) -> impl Iterator<Item = usize> {
+        self.symbols.iter().enumerate().filter_map(|(field, symbol)| symbol.map(|_| field))
+    }
+
+    /// The position of a field.
+    pub(super) fn field(&self, name: &Name) -> Option<usize> {
+        self.by_name.get(&*name.text).copied()
+    }
+
+    /// The fields of the struct.
+    pub(super) fn fields(&self) -> &'s [Field] {
+        self.fields
+    }
+
+    /// The value of a formula.
+    pub(super) fn scalar(&self, formula: &Formula) -> Result<Expr<'g>> {
+        let value = match &formula.kind {
+            FormulaKind::Number(value, unit) => Expr::Constant(in_si(*value, *unit)),
+            FormulaKind::Name(name) => self.name(name)?,
+            FormulaKind::Negative(inner) => -self.scalar(inner)?,
+            FormulaKind::Sum(terms) => {
+                let mut sum = Expr::ZERO;
+                for term in terms {
+                    let value = self.scalar(&term.formula)?;
+                    sum = if term.negative { sum - value } else { sum + value };
+                }
+                sum
+            }
+            FormulaKind::Product(factors) => self.product(factors)?,
+            FormulaKind::Call(function, argument) => self.call(*function, argument)?,
+        };
+        match value.as_number() {
+            Some(number) if !number.is_finite() || !number.to_f64().is_finite() => {
+                Err(out_of_range(&formula.place))
+            }
+            _ => Ok(value),
+        }
+    }
+
+    fn name(&self, name: &Name) -> Result<Expr<'g>> {
+        match self.field(name) {
+            Some(field) => self.symbols[field].ok_or_else(|| unknown_field(self.fields, name)),
+            None if is_pi(name) => Ok(Expr::Constant(Number::PI)),
+            None => Err(unknown_field(self.fields, name)),
+        }
+    }
+
+    fn product(&self, factors: &[Factor]) -> Result<Expr<'g>> {
+        let mut product = Expr::ONE;
+        for Factor { divides, formula } in factors {
+            let value = self.scalar(formula)?;
+            product = match divides {
+                false => product * value,
+                true if value.is_zero() => {
+                    return Err(Diagnostic::new(Code::DivisionByZero, &formula.place, "the divisor is zero"));
+                }
+                true => product.checked_div(value).ok_or_else(|| out_of_range(&formula.place))?,
+            };
+        }
+        Ok(product)
+    }
+
+    fn call(&self, function: Function, argument: &Formula) -> Result<Expr<'g>> {
+        let value = self.scalar(argument)?;
+        match function {
+            Function::Sin => Ok(value.sin()),
+            Function::Cos => Ok(value.cos()),
+            Function::Sqrt => value.sqrt().ok_or_else(|| {
+                Diagnostic::new(
+                    Code::RootOfNegative,
+                    &argument.place,
+                    format!("the root of {value:?} is no number"),
+                )
+            }),
+        }
+    }
+
+    /// The values of three formulas.
+    pub(super) fn vector(&self, [x, y, z]: &[Formula; 3]) -> Result<Vector3<Expr<'g>>> {
+        Ok(Vector3([self.scalar(x)?, self.scalar(y)?, self.scalar(z)?]))
+    }
+
+    /// The values of three formulas; zero if nothing was written.
+    pub(super) fn vector_or_zero(&self, parts: Option<&[Formula; 3]>) -> Result<Vector3<Expr<'g>>> {
+        parts.map_or(Ok(Vector3([Expr::ZERO; 3])), |parts| self.vector(parts))
+    }
+
+    /// The value of a formula without fields.
+    pub(super) fn number(&self, formula: &Formula) -> Result<Number> {
+        self.scalar(formula)?.as_number().ok_or_else(|| {
+            Diagnostic::new(Code::ConstantNeeded, &formula.place, "a number is needed here, not a field")
+        })
+    }
+}
+
+/// Calls `visit` with each name of a field, or of π, in a formula.
+pub(super) fn for_each_name(formula: &Formula, visit: &mut impl FnMut(&Name)) {
+    match &formula.kind {
+        FormulaKind::Number(..) => {}
+        FormulaKind::Name(name) => visit(name),
+        FormulaKind::Negative(inner) | FormulaKind::Call(_, inner) => for_each_name(inner, visit),
+        FormulaKind::Sum(terms) => terms.iter().for_each(|term| for_each_name(&term.formula, visit)),
+        FormulaKind::Product(factors) => {
+            factors.iter().for_each(|factor| for_each_name(&factor.formula, visit))
+        }
+    }
+}
+
+/// Whether a name that is no field is the constant.
+pub(super) fn is_pi(name: &Name) -> bool {
+    matches!(name.text.as_str(), "pi" | "PI")
+}
+
+fn in_si(value: Number, unit: Option<Unit>) -> Number {
+    let Some(unit) = unit else { return value };
+    let (num, den, pi) = unit.scale;
+    let scale = Number::ratio(num, den);
+    value * if pi { scale * Number::PI } else { scale }
+}
+
+fn out_of_range(place: &Place) -> Diagnostic {
+    Diagnostic::new(Code::NumberOutOfRange, place, "the value is out of range")
+}
+
+fn field_where_number_is_needed(slot: &Slot, name: &Name) -> Diagnostic {
+    let message = format!("{} depends on the field `{name}`", slot.name());
+    Diagnostic::new(slot.constant.unwrap_or(Code::ConstantNeeded), &name.place, message)
+}
+
+fn unknown_field(fields: &[Field], name: &Name) -> Diagnostic {
+    let message = format!("there is no field `{name}`");
+    let known = fields.iter().map(|field| field.name.text.as_str()).chain(["pi"]);
+    Diagnostic::new(Code::FieldUnknown, &name.place, message).suggest(&name.text, known)
+}

@@ -1,0 +1,295 @@
+//! Sums and products, flattened, and what they have in common computed once.
+//!
+//! A trace is first read as sums of products: chains that nobody else reads are merged, like terms are
+//! gathered, and what cancels is gone. Then, round by round, the pairs whose sharing saves most become values
+//! of their own: a product of two atoms, a multiple of one, a sum of two terms up to a common factor (which
+//! also factors `a·b + a·c`). Coefficients are exact; two are merged only if they are equal.
+//!
+//! Greedy extraction of common pairs goes back to M. Breuer, *Generation of optimal code for expressions via
+//! factorization*, CACM 1969.
+
+mod candidates;
+mod terms;
+
+use rustc_hash::FxHashMap;
+
+use crate::symbolic::{Expr, Graph, NodeId, Op};
+use terms::{Atom, Coefficient, Definitions, ONE, Term};
+
+/// A program with more terms than this is flattened but not searched: the search would not pay for its time.
+const LARGEST_SEARCH: usize = 5_000;
+/// How often the best pairs are looked for.
+const ROUNDS: usize = 60;
+
+/// Equal expressions with fewer operations; `is_leaf` are the nodes that cost nothing.
+pub fn share<'g>(graph: &'g Graph, results: &[Expr<'g>], is_leaf: impl Fn(NodeId) -> bool) -> Vec<Expr<'g>> {
+    let mut flat = Flattened::of(graph, results, &is_leaf);
+    flat.merge_single_uses();
+    if flat.definitions.number_of_terms() <= LARGEST_SEARCH {
+        for _ in 0..ROUNDS {
+            if !flat.extract_best() {
+                break;
+            }
+            flat.merge_single_uses();
+        }
+    }
+    flat.rebuild(results)
+}
+
+/// A graph as definitions of atoms by sums of products.
+struct Flattened<'g> {
+    graph: &'g Graph,
+    definitions: Definitions,
+    /// Atoms that are computed otherwise: quotients, roots, sines.
+    opaque: Vec<NodeId>,
+    /// How often results and opaque operations read an atom: those keep their own value.
+    pinned: FxHashMap<Atom, usize>,
+}
+
+impl<'g> Flattened<'g> {
+    fn of(graph: &'g Graph, results: &[Expr<'g>], is_leaf: &impl Fn(NodeId) -> bool) -> Self {
+        let uses = count_uses(graph, results, is_leaf);
+        let mut flat = Self {
+            graph,
+            definitions: Definitions::new(graph.len()),
+            opaque: Vec::new(),
+            pinned: FxHashMap::default(),
+        };
+        let mut waiting: Vec<NodeId> = Vec::new();
+        for result in results {
+            if let Expr::Node { id, .. } = *result {
+                flat.pin(id, &mut waiting);
+            }
+        }
+        let mut seen = vec![false; graph.len()];
+        while let Some(id) = waiting.pop() {
+            if std::mem::replace(&mut seen[id.index()], true) || is_leaf(id) {
+                continue;
+            }
+            match graph.op(id) {
+                Op::Constant(_) | Op::Symbol(_) => {}
+                Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Scale(..) => {
+                    let terms = flat.terms_of(id, &uses, is_leaf);
+                    let atoms = terms.iter().flat_map(|term| flat.definitions.atoms(term.monomial).to_vec());
+                    waiting.extend(atoms.map(|atom| graph.node(atom.index())));
+                    flat.definitions.define(Atom::of(id.index()), terms);
+                }
+                op => {
+                    flat.opaque.push(id);
+                    for operand in op.operands().into_iter().flatten() {
+                        flat.pin(operand, &mut waiting);
+                    }
+                }
+            }
+        }
+        flat
+    }
+
+    fn pin(&mut self, id: NodeId, waiting: &mut Vec<NodeId>) {
+        *self.pinned.entry(Atom::of(id.index())).or_insert(0) += 1;
+        waiting.push(id);
+    }
+
+    /// The terms of a sum or product, through operands that nobody else reads.
+    fn terms_of(
+        &mut self,
+        root: NodeId,
+        uses: &FxHashMap<NodeId, usize>,
+        is_leaf: &impl Fn(NodeId) -> bool,
+    ) -> Vec<Term> {
+        let mut terms = Vec::new();
+        let mut stack = vec![(root, false)];
+        while let Some((id, negative)) = stack.pop() {
+            let inside = id == root || (uses[&id] == 1 && !is_leaf(id));
+            match self.graph.op(id) {
+                Op::Add(a, b) if inside => stack.extend([(b, negative), (a, negative)]),
+                Op::Sub(a, b) if inside => stack.extend([(b, !negative), (a, negative)]),
+                _ => {
+                    let mut term = self.product_of(id, inside, uses, is_leaf);
+                    if negative {
+                        term.coefficient = -term.coefficient;
+                    }
+                    self.definitions.add_term(&mut terms, term);
+                }
+            }
+        }
+        terms
+    }
+
+    fn product_of(
+        &mut self,
+        root: NodeId,
+        inside: bool,
+        uses: &FxHashMap<NodeId, usize>,
+        is_leaf: &impl Fn(NodeId) -> bool,
+    ) -> Term {
+        let (mut coefficient, mut atoms) = (ONE, Vec::new());
+        let mut stack = vec![(root, inside)];
+        while let Some((id, inside)) = stack.pop() {
+            let enters = |x: NodeId| (x, uses[&x] == 1 && !is_leaf(x));
+            match self.graph.op(id) {
+                Op::Mul(a, b) if inside => stack.extend([enters(a), enters(b)]),
+                Op::Scale(k, a) if inside => {
+                    let value = self.definitions.coefficient(self.graph.number(k));
+                    coefficient = self.definitions.product(coefficient, value);
+                    stack.push(enters(a));
+                }
+                Op::Constant(k) => {
+                    let value = self.definitions.coefficient(self.graph.number(k));
+                    coefficient = self.definitions.product(coefficient, value);
+                }
+                _ => atoms.push(Atom::of(id.index())),
+            }
+        }
+        Term { coefficient, monomial: self.definitions.monomial(atoms) }
+    }
+
+    /// Writes a definition that is read once into its reader.
+    fn merge_single_uses(&mut self) {
+        loop {
+            let mut uses = self.definitions.count_uses();
+            for (atom, count) in &self.pinned {
+                *uses.entry(*atom).or_insert(0) += 2 * count;
+            }
+            let mut changed = false;
+            for atom in self.definitions.order() {
+                changed |= self.definitions.merge_into(atom, &uses);
+            }
+            if !changed {
+                return;
+            }
+        }
+    }
+
+    /// Extracts a batch of the pairs that save most; says whether there was one.
+    fn extract_best(&mut self) -> bool {
+        let candidates = candidates::find(&mut self.definitions);
+        let Some(best) = candidates.first().map(|candidate| candidate.saves) else { return false };
+        let mut touched = vec![false; self.definitions.len()];
+        for candidate in &candidates {
+            if 2 * candidate.saves < best {
+                break;
+            }
+            let readers = candidate.readers();
+            if readers.iter().any(|reader| touched.get(reader.index()).copied().unwrap_or(true)) {
+                continue;
+            }
+            candidate.apply(&mut self.definitions);
+            for reader in readers {
+                touched[reader.index()] = true;
+            }
+        }
+        true
+    }
+
+    /// The results as expressions again.
+    fn rebuild(&mut self, results: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let mut known: FxHashMap<Atom, Expr<'g>> = FxHashMap::default();
+        let mut rebuilt = Vec::with_capacity(results.len());
+        for result in results {
+            rebuilt.push(match *result {
+                Expr::Constant(_) => *result,
+                Expr::Node { id, negative, .. } => {
+                    let value = self.expression(Atom::of(id.index()), &mut known);
+                    if negative { -value } else { value }
+                }
+            });
+        }
+        rebuilt
+    }
+
+    /// The expression of an atom, operands first, without recursion.
+    fn expression(&self, root: Atom, known: &mut FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+        let mut stack = vec![root];
+        while let Some(&atom) = stack.last() {
+            let waiting = stack.len();
+            if !known.contains_key(&atom) {
+                let operands = self.operands(atom);
+                stack.extend(operands.into_iter().filter(|x| !known.contains_key(x)));
+            }
+            if stack.len() == waiting {
+                if !known.contains_key(&atom) {
+                    let value = self.value(atom, known);
+                    known.insert(atom, value);
+                }
+                stack.pop();
+            }
+        }
+        known[&root]
+    }
+
+    fn operands(&self, atom: Atom) -> Vec<Atom> {
+        if let Some(terms) = self.definitions.terms(atom) {
+            return terms.iter().flat_map(|term| self.definitions.atoms(term.monomial).to_vec()).collect();
+        }
+        match self.opaque_op(atom) {
+            Some(op) => op.operands().into_iter().flatten().map(|id| Atom::of(id.index())).collect(),
+            None => Vec::new(),
+        }
+    }
+
+    fn opaque_op(&self, atom: Atom) -> Option<Op> {
+        let id = self.opaque.iter().find(|id| id.index() == atom.index())?;
+        Some(self.graph.op(*id))
+    }
+
+    fn value(&self, atom: Atom, known: &FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+        if let Some(terms) = self.definitions.terms(atom) {
+            let (positive, negative): (Vec<&Term>, Vec<&Term>) =
+                terms.iter().partition(|term| term.coefficient.is_positive());
+            let terms = positive.into_iter().chain(negative);
+            return terms.fold(Expr::ZERO, |sum, term| sum + self.term(term, known));
+        }
+        let of = |id: NodeId| known[&Atom::of(id.index())];
+        match self.opaque_op(atom) {
+            Some(Op::Div(a, b)) => of(a) / of(b),
+            Some(Op::Sin(a)) => of(a).sin(),
+            Some(Op::Cos(a)) => of(a).cos(),
+            Some(Op::Sqrt(a)) => of(a).sqrt().expect("a root that was made before"),
+            _ => Expr::of_node(self.graph, self.graph.node(atom.index())),
+        }
+    }
+
+    fn term(&self, term: &Term, known: &FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+        let atoms = self.definitions.atoms(term.monomial).iter();
+        let product = atoms.map(|atom| known[atom]).reduce(|a, b| a * b);
+        let value = Expr::Constant(self.definitions.value(term.coefficient));
+        product.map_or(value, |product| value * product)
+    }
+}
+
+/// How often live nodes read each other; results count twice, so that they keep their own value.
+fn count_uses(
+    graph: &Graph,
+    results: &[Expr<'_>],
+    is_leaf: &impl Fn(NodeId) -> bool,
+) -> FxHashMap<NodeId, usize> {
+    let mut uses: FxHashMap<NodeId, usize> = FxHashMap::default();
+    let mut stack = Vec::new();
+    let read = |id: NodeId, times: usize, stack: &mut Vec<NodeId>, uses: &mut FxHashMap<NodeId, usize>| {
+        let count = uses.entry(id).or_insert(0);
+        if *count == 0 && !is_leaf(id) {
+            stack.push(id);
+        }
+        *count += times;
+    };
+    for result in results {
+        if let Expr::Node { id, .. } = *result {
+            read(id, 2, &mut stack, &mut uses);
+        }
+    }
+    while let Some(id) = stack.pop() {
+        let op = graph.op(id);
+        let times = if matches!(op, Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Scale(..)) { 1 } else { 2 };
+        for operand in op.operands().into_iter().flatten() {
+            read(operand, times, &mut stack, &mut uses);
+        }
+    }
+    uses
+}
+
+/// What a term costs: its multiplications.
+fn cost(atoms: usize, coefficient: Coefficient) -> i64 {
+    let factors = atoms as i64 + i64::from(!coefficient.is_unit());
+    (factors - 1).max(0)
+}

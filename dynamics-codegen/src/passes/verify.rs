@@ -1,0 +1,196 @@
+//! The last pass: the finished programs are run against the plain recursion, and must agree.
+//!
+//! At seeded states and the parameters' sample values, every result of every program is compared with the
+//! [`Oracle`], which works on the frames and masses as they were given. Forward dynamics and its derivatives
+//! are compared by their residual: their forward error explodes for a mass matrix that is ill-conditioned and
+//! valid all the same.
+
+use super::{Compiled, Program};
+use crate::mechanics::equations::{Argument, Input, Method};
+use crate::mechanics::plain::{ForwardDynamicsDerivatives, Oracle, Rows};
+use crate::model::Model;
+use crate::symbolic::Evaluator;
+
+/// How far a program may be off, relative to the size of what it computes: both roads round, each operation
+/// by 1.1e-16; a formula that is wrong is off by the size of the robot's numbers.
+const TOLERANCE: f64 = 1e-9;
+/// How many states are tried.
+const STATES: u64 = 2;
+
+/// A method whose program does not compute what it should.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Disagreement {
+    /// The method.
+    pub method: Method,
+    /// The largest error, relative to the size of the result.
+    pub error: f64,
+}
+
+/// The methods whose programs disagree with the plain recursion. Where the sample values of the parameters
+/// make the robot itself undefined, as in `1/(a − b)` at `a = b`, there is nothing to compare.
+pub fn disagreements(model: &Model<'_>, compiled: &Compiled<'_>) -> Vec<Disagreement> {
+    let mut found: Vec<Disagreement> = Vec::new();
+    for state in 0..STATES {
+        let sample = Sample::of(model, compiled, state);
+        if !sample.is_defined() {
+            continue;
+        }
+        for (equation, program) in compiled.equations.equations.iter().zip(&compiled.programs) {
+            let error = sample.error(equation.method, program);
+            let known = found.iter().any(|known| known.method == equation.method);
+            if !(error <= TOLERANCE || known) {
+                found.push(Disagreement { method: equation.method, error });
+            }
+        }
+    }
+    found
+}
+
+/// A robot in numbers at a state.
+struct Sample {
+    tree: crate::model::Tree<f64>,
+    parameters: Vec<f64>,
+    fields: Vec<f64>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    tau: Vec<f64>,
+}
+
+impl Sample {
+    fn of(model: &Model<'_>, compiled: &Compiled<'_>, seed: u64) -> Self {
+        let parameters: Vec<f64> = model.parameters.iter().map(|parameter| parameter.sample).collect();
+        let value = |symbol: crate::symbolic::SymbolId| parameters[symbol.0 as usize];
+        let mut evaluator = Evaluator::new(compiled.graph, value);
+        let tree = model.tree.map(|expr| evaluator.value(expr));
+        let mut random = Random(seed + 1);
+        let mut vector = || (0..model.tree.dof()).map(|_| random.next()).collect::<Vec<f64>>();
+        let (q, v, a, tau) = (vector(), vector(), vector(), vector());
+        let fields =
+            compiled.preparation.evaluate(|input| read(input, &parameters, [&[], &[], &[], &[]]), &[]);
+        Self { tree, parameters, fields, q, v, a, tau }
+    }
+
+    fn is_defined(&self) -> bool {
+        let oracle = Oracle::new(&self.tree);
+        let torque = oracle.inverse_dynamics(&self.q, &self.v, &self.a);
+        torque.iter().all(|x| x.is_finite())
+            && oracle.mass_matrix(&self.q).iter().flatten().all(|x| x.is_finite())
+    }
+
+    fn run(&self, program: &Program) -> Vec<f64> {
+        let vectors = [self.q.as_slice(), &self.v, &self.a, &self.tau];
+        program.evaluate(|input| read(input, &self.parameters, vectors), &self.fields)
+    }
+
+    /// How far the program is off.
+    fn error(&self, method: Method, program: &Program) -> f64 {
+        let Self { q, v, a, tau, tree, .. } = self;
+        let oracle = Oracle::new(tree);
+        let found = self.run(program);
+        let inertia = largest(&oracle.mass_matrix(q).concat());
+        let off = |expected: Vec<f64>| distance(&found, &expected, inertia);
+        match method {
+            Method::MassMatrix => off(oracle.mass_matrix(q).concat()),
+            Method::CoriolisMatrix => off(oracle.coriolis_matrix(q, v).concat()),
+            Method::GravityForces => off(oracle.gravity_forces(q)),
+            Method::BiasForces => off(oracle.bias_forces(q, v)),
+            Method::InverseDynamics => off(oracle.inverse_dynamics(q, v, a)),
+            Method::KineticEnergy => off(vec![oracle.kinetic_energy(q, v)]),
+            Method::PotentialEnergy => off(vec![oracle.potential_energy(q)]),
+            Method::Lagrangian => {
+                let size = oracle.kinetic_energy(q, v).abs() + oracle.potential_energy(q).abs();
+                distance(&found, &[oracle.lagrangian(q, v)], size)
+            }
+            Method::EquationsOfMotion => self.blocks_off(
+                &found,
+                inertia,
+                &[
+                    oracle.mass_matrix(q).concat(),
+                    oracle.coriolis_matrix(q, v).concat(),
+                    oracle.gravity_forces(q),
+                ],
+            ),
+            Method::InverseDynamicsDerivatives => {
+                let expected = oracle.inverse_dynamics_derivatives(q, v, a);
+                self.blocks_off(
+                    &found,
+                    inertia,
+                    &[expected.dtau_dq.concat(), expected.dtau_dv.concat(), expected.dtau_da.concat()],
+                )
+            }
+            Method::ForwardDynamics => match oracle.forward_dynamics(q, v, tau) {
+                Some(_) => oracle.forward_dynamics_residual(q, v, tau, &found),
+                None => 0.0,
+            },
+            Method::ForwardDynamicsDerivatives => match oracle.forward_dynamics(q, v, tau) {
+                Some(a) => oracle.forward_dynamics_derivatives_residual(q, v, &a, &self.derivatives(&found)),
+                None => 0.0,
+            },
+            Method::Pose(frame) => {
+                let pose = oracle.pose(frame, q);
+                off([pose.rotation.0.concat(), pose.translation.0.to_vec()].concat())
+            }
+            Method::Jacobian(frame) => distance(&found, &oracle.body_jacobian(frame, q).concat(), 1.0),
+            Method::WorldJacobian(frame) => distance(&found, &oracle.world_jacobian(frame, q).concat(), 1.0),
+        }
+    }
+
+    fn blocks_off(&self, found: &[f64], size: f64, expected: &[Vec<f64>]) -> f64 {
+        let mut rest = found;
+        let mut worst = 0.0_f64;
+        for block in expected {
+            let (head, tail) = rest.split_at(block.len());
+            worst = larger(worst, distance(head, block, size));
+            rest = tail;
+        }
+        worst
+    }
+
+    fn derivatives(&self, found: &[f64]) -> ForwardDynamicsDerivatives {
+        let n = self.q.len();
+        let rows = |block: usize| -> Rows {
+            found[block * n * n..][..n * n].chunks(n).map(<[f64]>::to_vec).collect()
+        };
+        ForwardDynamicsDerivatives { da_dq: rows(0), da_dv: rows(1), da_dtau: rows(2) }
+    }
+}
+
+fn read(input: Input, parameters: &[f64], vectors: [&[f64]; 4]) -> f64 {
+    match input {
+        Input::Parameter(k) => parameters[k],
+        Input::Argument(argument, k) => {
+            vectors[Argument::ALL.iter().position(|&x| x == argument).unwrap_or(0)][k]
+        }
+    }
+}
+
+/// The largest difference, over the size of the expected numbers and `size`.
+fn distance(found: &[f64], expected: &[f64], size: f64) -> f64 {
+    let differences: Vec<f64> = found.iter().zip(expected).map(|(x, y)| x - y).collect();
+    let missed = largest(&differences);
+    if missed == 0.0 { 0.0 } else { missed / (largest(expected) + size) }
+}
+
+/// The largest magnitude; NaN if there is one.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |worst, value| larger(worst, value.abs()))
+}
+
+fn larger(a: f64, b: f64) -> f64 {
+    if b.is_nan() || b > a { b } else { a }
+}
+
+/// Numbers between −1 and 1 that are the same on every machine: splitmix64 of a counter.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut x = self.0;
+        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        x ^= x >> 31;
+        (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

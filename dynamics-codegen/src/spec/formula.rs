@@ -1,0 +1,219 @@
+//! Arithmetic as written: numbers with units, fields, sums, products and functions.
+
+use proc_macro2::{Delimiter, Literal};
+
+use super::cursor::{Cursor, Result};
+use super::{Name, Unit};
+use crate::diagnostics::{Code, Diagnostic, Place};
+use crate::symbolic::Number;
+
+/// A scalar expression as written.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// What it is.
+    pub kind: FormulaKind,
+    /// Where it was written.
+    pub place: Place,
+}
+
+/// The forms of a [`Formula`]. Sums and products are flat: only parentheses and functions nest, at most 64 deep.
+#[derive(Clone, Debug)]
+pub enum FormulaKind {
+    /// A literal with its unit, as in `90deg`. The value is in the unit.
+    Number(Number, Option<Unit>),
+    /// A field, or `pi`.
+    Name(Name),
+    /// `-x`
+    Negative(Box<Formula>),
+    /// Two terms or more.
+    Sum(Vec<Term>),
+    /// Two factors or more.
+    Product(Vec<Factor>),
+    /// `sin(x)` and the like.
+    Call(Function, Box<Formula>),
+}
+
+/// A term of a sum.
+#[derive(Clone, Debug)]
+pub struct Term {
+    /// Whether it is subtracted.
+    pub negative: bool,
+    /// The term.
+    pub formula: Formula,
+}
+
+/// A factor of a product.
+#[derive(Clone, Debug)]
+pub struct Factor {
+    /// Whether it divides.
+    pub divides: bool,
+    /// The factor.
+    pub formula: Formula,
+}
+
+/// A function of one argument.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Function {
+    /// Sine.
+    Sin,
+    /// Cosine.
+    Cos,
+    /// Square root.
+    Sqrt,
+}
+
+impl Formula {
+    /// Reads all of the cursor.
+    pub(super) fn parse(mut input: Cursor) -> Result<Self> {
+        let formula = Self::sum(&mut input)?;
+        input.finish("the expression")?;
+        Ok(formula)
+    }
+
+    /// Reads a sum, and stops at what cannot go on with it.
+    pub(super) fn sum(input: &mut Cursor) -> Result<Self> {
+        let first = Self::product(input)?;
+        let mut terms = vec![Term { negative: false, formula: first }];
+        while let Some(sign @ ('+' | '-')) = input.peek_punct() {
+            input.next();
+            terms.push(Term { negative: sign == '-', formula: Self::product(input)? });
+        }
+        let place = spanning(terms.iter().map(|term| &term.formula));
+        Ok(match (terms.pop(), terms.is_empty(), place) {
+            (Some(only), true, _) => only.formula,
+            (last, _, place) => {
+                terms.extend(last);
+                Self { kind: FormulaKind::Sum(terms), place }
+            }
+        })
+    }
+
+    fn product(input: &mut Cursor) -> Result<Self> {
+        let first = Self::signed(input)?;
+        let mut factors = vec![Factor { divides: false, formula: first }];
+        while let Some(sign @ ('*' | '/')) = input.peek_punct() {
+            input.next();
+            factors.push(Factor { divides: sign == '/', formula: Self::signed(input)? });
+        }
+        let place = spanning(factors.iter().map(|factor| &factor.formula));
+        Ok(match (factors.pop(), factors.is_empty(), place) {
+            (Some(only), true, _) => only.formula,
+            (last, _, place) => {
+                factors.extend(last);
+                Self { kind: FormulaKind::Product(factors), place }
+            }
+        })
+    }
+
+    fn signed(input: &mut Cursor) -> Result<Self> {
+        let (start, mut negative) = (input.here(), false);
+        while input.punct('-') {
+            negative = !negative;
+        }
+        let inner = Self::atom(input)?;
+        if !negative {
+            return Ok(inner);
+        }
+        let place = start.to(&inner.place);
+        Ok(Self { kind: FormulaKind::Negative(Box::new(inner)), place })
+    }
+
+    fn atom(input: &mut Cursor) -> Result<Self> {
+        let place = input.here();
+        if let Some(literal) = input.literal() {
+            return number(&literal, place);
+        }
+        for delimiter in [Delimiter::Parenthesis, Delimiter::None] {
+            if let Some((inner, place)) = input.group(delimiter)? {
+                let inner = Self::parse(inner)?;
+                return Ok(Self { place, ..inner });
+            }
+        }
+        let Some(ident) = input.ident() else {
+            return Err(input.expected("a number or the name of a field"));
+        };
+        let name = Name::new(&ident);
+        match input.group(Delimiter::Parenthesis)? {
+            None => Ok(Self { place: name.place.clone(), kind: FormulaKind::Name(name) }),
+            Some((argument, end)) => {
+                let function = Function::named(&name)?;
+                let argument = Box::new(Self::parse(argument)?);
+                Ok(Self { kind: FormulaKind::Call(function, argument), place: place.to(&end) })
+            }
+        }
+    }
+
+    /// The value of a literal without a unit, with the signs before it.
+    pub fn bare_literal(&self) -> Option<Number> {
+        match &self.kind {
+            FormulaKind::Number(value, None) => Some(*value),
+            FormulaKind::Negative(inner) => inner.bare_literal().map(|value| -value),
+            _ => None,
+        }
+    }
+}
+
+fn spanning<'a>(mut parts: impl Iterator<Item = &'a Formula>) -> Place {
+    let first = parts.next().map(|part| part.place.clone());
+    let last = parts.last().map(|part| part.place.clone());
+    match (first, last) {
+        (Some(first), Some(last)) => first.to(&last),
+        (first, _) => first.unwrap_or_else(|| proc_macro2::Span::call_site().into()),
+    }
+}
+
+impl Function {
+    const ALL: [(&'static str, Self); 3] = [("sin", Self::Sin), ("cos", Self::Cos), ("sqrt", Self::Sqrt)];
+
+    fn named(name: &Name) -> Result<Self> {
+        let found = Self::ALL.iter().find(|(known, _)| *known == name.text);
+        found.map(|(_, function)| *function).ok_or_else(|| {
+            let message = format!("there is no function `{name}`");
+            let known = Self::ALL.iter().map(|(known, _)| *known);
+            Diagnostic::new(Code::FunctionUnknown, &name.place, message).suggest(&name.text, known)
+        })
+    }
+}
+
+/// Reads a literal as `digits[unit]`.
+fn number(literal: &Literal, place: Place) -> Result<Formula> {
+    let text = literal.to_string();
+    let prefixed = text.get(..2).is_some_and(|start| matches!(start, "0x" | "0o" | "0b"));
+    if prefixed || !text.starts_with(|c: char| c.is_ascii_digit() || c == '-') {
+        let message = format!("expected a decimal number, found `{}`", shortened(&text));
+        return Err(Diagnostic::new(Code::Syntax, &place, message));
+    }
+    let (digits, suffix) = text.split_at(length_of_number(&text));
+    let unit = match suffix {
+        "" | "f32" | "f64" => None,
+        _ => Some(Unit::named(suffix).ok_or_else(|| {
+            let message = format!("there is no unit `{}`", shortened(suffix));
+            let known = Unit::ALL.iter().map(|unit| unit.name);
+            Diagnostic::new(Code::UnitUnknown, &place, message).suggest(suffix, known)
+        })?),
+    };
+    let value = Number::parse_decimal(digits).filter(|value| value.is_finite()).ok_or_else(|| {
+        let message = format!("the number `{}` is out of range", shortened(digits));
+        Diagnostic::new(Code::NumberOutOfRange, &place, message)
+    })?;
+    Ok(Formula { kind: FormulaKind::Number(value, unit), place })
+}
+
+/// How much of a literal is its number: `-`, digits, a point, an exponent. The rest is its suffix.
+fn length_of_number(text: &str) -> usize {
+    let digit = |c: char| c.is_ascii_digit() || c == '_' || c == '.';
+    let mantissa = text.find(|c: char| !(digit(c) || c == '-')).unwrap_or(text.len());
+    let rest = &text[mantissa..];
+    let Some(exponent) = rest.strip_prefix(['e', 'E']) else { return mantissa };
+    let digits = exponent.strip_prefix(['+', '-']).unwrap_or(exponent);
+    let length = digits.find(|c: char| !(c.is_ascii_digit() || c == '_')).unwrap_or(digits.len());
+    if length == 0 { mantissa } else { text.len() - digits.len() + length }
+}
+
+/// A text for a message, cut where it gets long.
+fn shortened(text: &str) -> String {
+    match text.char_indices().nth(24) {
+        Some((at, _)) => format!("{}…", &text[..at]),
+        None => text.to_owned(),
+    }
+}

@@ -1,0 +1,164 @@
+//! What the user wrote, with its places and without judgement.
+//!
+//! The tokens of a derive are read here; a URDF will be read into the same types.
+
+mod body;
+mod cursor;
+mod formula;
+mod joint;
+mod options;
+mod text;
+mod unit;
+mod values;
+
+pub use body::{BodySpec, InertiaKind, InertiaSpec, Shape, Solid};
+pub use cursor::nested_deeper_than;
+pub use formula::{Factor, Formula, FormulaKind, Function, Term};
+pub use joint::{Axis, AxisKind, JointKind, JointSpec, Placement, PlacementKind};
+pub use options::Options;
+pub use unit::Unit;
+
+use std::fmt;
+
+use cursor::Cursor;
+use syn::spanned::Spanned;
+
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+
+/// A name as written; the prefix of a raw identifier is not part of it.
+#[derive(Clone, Debug)]
+pub struct Name {
+    /// The name.
+    pub text: String,
+    /// Where it was written.
+    pub place: Place,
+}
+
+impl Name {
+    /// The name that an identifier is.
+    pub fn new(ident: &proc_macro2::Ident) -> Self {
+        let text = ident.to_string();
+        let text = text.strip_prefix("r#").map(str::to_owned).unwrap_or(text);
+        Self { text, place: ident.span().into() }
+    }
+}
+
+impl fmt::Display for Name {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.text)
+    }
+}
+
+/// A field of the struct.
+#[derive(Clone)]
+pub struct Field {
+    /// Its name.
+    pub name: Name,
+    /// Its identifier, for code.
+    pub ident: syn::Ident,
+    /// Its type.
+    pub ty: syn::Type,
+}
+
+/// A robot as written.
+#[derive(Clone)]
+pub struct RobotSpec {
+    /// The struct's name.
+    pub ident: syn::Ident,
+    /// The struct's visibility.
+    pub vis: syn::Visibility,
+    /// The struct's parameters, with their bounds.
+    pub generics: syn::Generics,
+    /// The struct's fields; none of a unit struct.
+    pub fields: Vec<Field>,
+    /// `#[dynamics(…)]`
+    pub options: Options,
+    /// `#[joint(…)]`, in order.
+    pub joints: Vec<JointSpec>,
+    /// `#[body(…)]`, in order.
+    pub bodies: Vec<BodySpec>,
+}
+
+impl RobotSpec {
+    /// The struct's type parameters.
+    pub fn type_parameters(&self) -> impl Iterator<Item = &syn::Ident> {
+        self.generics.type_params().map(|parameter| &parameter.ident)
+    }
+}
+
+/// Reads the input of the derive. What cannot be read is reported, and left out of the result.
+pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
+    let mut spec = RobotSpec {
+        ident: input.ident.clone(),
+        vis: input.vis.clone(),
+        generics: input.generics.clone(),
+        fields: fields(input, diags),
+        options: Options::default(),
+        joints: vec![],
+        bodies: vec![],
+    };
+    for (line, attribute) in input.attrs.iter().enumerate() {
+        spec.read(attribute, line, diags);
+    }
+    spec
+}
+
+const HELPERS: [&str; 3] = ["dynamics", "joint", "body"];
+
+/// Which helper attribute of the derive it is.
+fn helper(attribute: &syn::Attribute) -> Option<&'static str> {
+    HELPERS.into_iter().find(|helper| attribute.path().is_ident(helper))
+}
+
+impl RobotSpec {
+    fn read(&mut self, attribute: &syn::Attribute, line: usize, diags: &mut Diagnostics) {
+        let Some(helper) = helper(attribute) else { return };
+        let place = Place::of(attribute);
+        let syn::Meta::List(list) = &attribute.meta else {
+            let message = format!("expected `#[{helper}(…)]`");
+            diags.error(Code::Syntax, &place, message);
+            return;
+        };
+        let input = Cursor::new(list.tokens.clone(), list.delimiter.span().close());
+        match helper {
+            "joint" => self.joints.extend(JointSpec::parse(input, place, line, diags)),
+            "body" => self.bodies.extend(BodySpec::parse(list.tokens.clone(), input, place, line, diags)),
+            _ => self.options.read(input, diags),
+        }
+    }
+}
+
+fn fields(input: &syn::DeriveInput, diags: &mut Diagnostics) -> Vec<Field> {
+    let needed = |what: &str, place: &Place| {
+        Diagnostic::new(Code::StructNeeded, place, format!("`{}` is {what}", input.ident))
+    };
+    match &input.data {
+        syn::Data::Struct(data) => match &data.fields {
+            syn::Fields::Named(named) => named.named.iter().filter_map(|found| field(found, diags)).collect(),
+            syn::Fields::Unit => vec![],
+            syn::Fields::Unnamed(unnamed) => {
+                diags.push(needed("a tuple struct", &Place::of(unnamed)));
+                vec![]
+            }
+        },
+        syn::Data::Enum(data) => {
+            diags.push(needed("an enum", &data.enum_token.span().into()));
+            vec![]
+        }
+        syn::Data::Union(data) => {
+            diags.push(needed("a union", &data.union_token.span().into()));
+            vec![]
+        }
+    }
+}
+
+fn field(found: &syn::Field, diags: &mut Diagnostics) -> Option<Field> {
+    for attribute in &found.attrs {
+        if let Some(helper) = helper(attribute) {
+            let message = format!("`#[{helper}]` is on a field");
+            diags.error(Code::AttributeMisplaced, &Place::of(attribute), message);
+        }
+    }
+    let ident = found.ident.clone()?;
+    Some(Field { name: Name::new(&ident), ident, ty: found.ty.clone() })
+}

@@ -1,0 +1,79 @@
+//! `#[dynamics(gravity = […], crate = "…", snap = off, outputs(…), allow(…))]`
+
+use super::cursor::{Cursor, Result};
+use super::values::{Entry, fill};
+use super::{Formula, Name};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+
+/// What holds for the whole robot. Several attributes add up.
+#[derive(Clone, Default)]
+pub struct Options {
+    /// `gravity = [x, y, z]`: the acceleration of free fall in the world.
+    pub gravity: Option<[Formula; 3]>,
+    /// `crate = "path"`: where the run-time crate is found.
+    pub krate: Option<syn::Path>,
+    /// `snap = on | off`: whether rotations next to right angles become right angles.
+    pub snap: Option<bool>,
+    /// `outputs(…)`: the methods to emit; without it, all.
+    pub outputs: Option<Vec<Name>>,
+    /// `allow(…)`
+    pub allow: Option<Vec<Name>>,
+}
+
+const KEYS: &[&str] = &["gravity", "crate", "snap", "outputs", "allow"];
+
+impl Options {
+    /// The path of the run-time crate.
+    pub fn crate_path(&self) -> syn::Path {
+        self.krate.clone().unwrap_or_else(|| syn::parse_quote!(::dynamics_core))
+    }
+
+    /// Whether to snap, which is the default.
+    pub fn snaps(&self) -> bool {
+        self.snap.unwrap_or(true)
+    }
+
+    pub(super) fn read(&mut self, input: Cursor, diags: &mut Diagnostics) {
+        for item in input.items() {
+            let Some(entry) = diags.keep(Entry::parse(item, KEYS)) else { continue };
+            let key = entry.key.clone();
+            match key.text.as_str() {
+                "gravity" => fill(&mut self.gravity, &key, entry.vector(["x", "y", "z"]), diags),
+                "crate" => fill(&mut self.krate, &key, crate_path(entry), diags),
+                "snap" => fill(&mut self.snap, &key, switch(entry), diags),
+                "outputs" => fill(&mut self.outputs, &key, entry.names(), diags),
+                _ => fill(&mut self.allow, &key, entry.names(), diags),
+            }
+        }
+    }
+}
+
+/// `= "path"`
+fn crate_path(entry: Entry) -> Result<syn::Path> {
+    let mut value = entry.assigned()?;
+    let place = value.here();
+    let Some(literal) = value.literal() else { return Err(value.expected("a path in quotes")) };
+    value.finish("the path")?;
+    let syn::Lit::Str(text) = syn::Lit::new(literal) else {
+        return Err(Diagnostic::new(Code::Syntax, &place, "expected a path in quotes")
+            .help("write `crate = \"::path::to::dynamics_core\"`"));
+    };
+    text.parse_with(syn::Path::parse_mod_style).map_err(|_| {
+        Diagnostic::new(Code::Syntax, &place, format!("`{}` is no path of a crate", text.value()))
+    })
+}
+
+/// `= on`, `= off`
+fn switch(entry: Entry) -> Result<bool> {
+    let mut value = entry.assigned()?;
+    let Some(word) = value.ident() else { return Err(value.expected("`on` or `off`")) };
+    let name = Name::new(&word);
+    value.finish("the switch")?;
+    match name.text.as_str() {
+        "on" => Ok(true),
+        "off" => Ok(false),
+        _ => {
+            Err(Diagnostic::new(Code::Syntax, &name.place, format!("expected `on` or `off`, found `{name}`")))
+        }
+    }
+}

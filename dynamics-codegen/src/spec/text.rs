@@ -1,0 +1,89 @@
+//! Formulas as text, for messages.
+
+use std::fmt::{self, Write};
+
+use super::{Formula, FormulaKind, Function};
+
+impl fmt::Display for Formula {
+    /// As written, but for spaces.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.kind {
+            FormulaKind::Number(value, None) => write!(f, "{value}"),
+            FormulaKind::Number(value, Some(unit)) => write!(f, "{value}{}", unit.name),
+            FormulaKind::Name(name) => write!(f, "{name}"),
+            FormulaKind::Negative(inner) => write!(f, "-{}", Operand(inner)),
+            FormulaKind::Sum(terms) => {
+                for (i, term) in terms.iter().enumerate() {
+                    match (i, term.negative) {
+                        (0, _) => {}
+                        (_, false) => f.write_str(" + ")?,
+                        (_, true) => f.write_str(" - ")?,
+                    }
+                    write!(f, "{}", Operand(&term.formula))?;
+                }
+                Ok(())
+            }
+            FormulaKind::Product(factors) => {
+                for (i, factor) in factors.iter().enumerate() {
+                    match (i, factor.divides) {
+                        (0, _) => {}
+                        (_, false) => f.write_str(" * ")?,
+                        (_, true) => f.write_str(" / ")?,
+                    }
+                    write!(f, "{}", Operand(&factor.formula))?;
+                }
+                Ok(())
+            }
+            FormulaKind::Call(function, argument) => write!(f, "{}({argument})", function.name()),
+        }
+    }
+}
+
+/// A part of a larger formula: sums are in parentheses, and what else needs them.
+struct Operand<'a>(&'a Formula);
+
+impl fmt::Display for Operand<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.kind {
+            FormulaKind::Sum(_) => write!(f, "({})", self.0),
+            _ => write!(f, "{}", self.0),
+        }
+    }
+}
+
+impl Function {
+    /// The name as written.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Sin => "sin",
+            Self::Cos => "cos",
+            Self::Sqrt => "sqrt",
+        }
+    }
+}
+
+impl Formula {
+    /// The text, cut where it gets long.
+    pub fn short_text(&self) -> String {
+        let mut text = Limited { text: String::new() };
+        match write!(text, "{self}") {
+            Ok(()) => text.text,
+            Err(_) => text.text + "…",
+        }
+    }
+}
+
+/// A text of some 48 bytes at the most; more is an error, and stops the writer.
+struct Limited {
+    text: String,
+}
+
+impl Write for Limited {
+    fn write_str(&mut self, part: &str) -> fmt::Result {
+        if self.text.len() + part.len() > 48 {
+            return Err(fmt::Error);
+        }
+        self.text.push_str(part);
+        Ok(())
+    }
+}

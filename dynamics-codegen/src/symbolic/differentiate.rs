@@ -1,0 +1,68 @@
+//! `∂/∂x` by the chain rule, forward, each node once.
+
+use rustc_hash::FxHashMap;
+
+use super::{Expr, Graph, NodeId, Number, Op, SymbolId};
+
+/// The derivatives of expressions with respect to one input, remembered node by node.
+pub struct Differentiator<'g> {
+    graph: &'g Graph,
+    symbol: SymbolId,
+    known: FxHashMap<NodeId, Expr<'g>>,
+}
+
+impl<'g> Differentiator<'g> {
+    /// Differentiates with respect to `symbol`.
+    pub fn new(graph: &'g Graph, symbol: SymbolId) -> Self {
+        Self { graph, symbol, known: FxHashMap::default() }
+    }
+
+    /// `∂expr/∂symbol`
+    pub fn derivative(&mut self, expr: Expr<'g>) -> Expr<'g> {
+        match expr {
+            Expr::Constant(_) => Expr::ZERO,
+            Expr::Node { id, negative, .. } => {
+                let derivative = self.node(id);
+                if negative { -derivative } else { derivative }
+            }
+        }
+    }
+
+    /// Operands before operations, without recursion: graphs may be deep.
+    fn node(&mut self, root: NodeId) -> Expr<'g> {
+        let mut stack = vec![root];
+        while let Some(&id) = stack.last() {
+            let waiting = stack.len();
+            let op = self.graph.op(id);
+            if !self.known.contains_key(&id) {
+                stack.extend(op.operands().into_iter().flatten().filter(|x| !self.known.contains_key(x)));
+            }
+            if stack.len() == waiting {
+                if !self.known.contains_key(&id) {
+                    let derivative = self.rule(id, op);
+                    self.known.insert(id, derivative);
+                }
+                stack.pop();
+            }
+        }
+        self.known[&root]
+    }
+
+    fn rule(&self, id: NodeId, op: Op) -> Expr<'g> {
+        let d = |x: NodeId| self.known[&x];
+        let e = |x: NodeId| Expr::of_node(self.graph, x);
+        match op {
+            Op::Constant(_) => Expr::ZERO,
+            Op::Symbol(symbol) if symbol == self.symbol => Expr::ONE,
+            Op::Symbol(_) => Expr::ZERO,
+            Op::Add(a, b) => d(a) + d(b),
+            Op::Sub(a, b) => d(a) - d(b),
+            Op::Mul(a, b) => d(a) * e(b) + e(a) * d(b),
+            Op::Scale(k, a) => Expr::Constant(self.graph.number(k)) * d(a),
+            Op::Div(a, b) => (d(a) - e(id) * d(b)) / e(b),
+            Op::Sqrt(a) => d(a) / (Expr::Constant(Number::integer(2)) * e(id)),
+            Op::Sin(a) => e(a).cos() * d(a),
+            Op::Cos(a) => -(e(a).sin() * d(a)),
+        }
+    }
+}

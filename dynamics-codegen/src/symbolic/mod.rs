@@ -1,0 +1,15 @@
+//! Expressions: exact constants, a hash-consed graph, and what can be done with it.
+//!
+//! Nothing in here knows of robots.
+
+mod differentiate;
+mod evaluate;
+mod expr;
+mod graph;
+pub mod number;
+
+pub use differentiate::Differentiator;
+pub use evaluate::Evaluator;
+pub use expr::Expr;
+pub use graph::{Graph, NodeId, Op, SymbolId};
+pub use number::Number;

@@ -1,0 +1,199 @@
+//! Every mistake of the catalogue, with the text that users see.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+use std::fmt::Write;
+
+use dynamics_codegen::diagnostics::{Code, Diagnostic, Diagnostics};
+use dynamics_codegen::model;
+use dynamics_codegen::spec;
+use dynamics_codegen::symbolic::Graph;
+
+/// The mistakes in the text of a whole struct.
+fn mistakes_in(text: &str) -> Vec<Diagnostic> {
+    let mut diags = Diagnostics::new();
+    let input = syn::parse_str(text).unwrap();
+    let spec = spec::parse(&input, &mut diags);
+    if diags.is_empty() {
+        let graph = Graph::new();
+        let model = model::build(&spec, &graph, &mut diags);
+        assert_eq!(model.is_some(), diags.is_empty(), "a model or a mistake: {text}");
+    }
+    diags.take()
+}
+
+/// The mistakes in attributes of a struct with a few fields.
+fn mistakes(lines: &str) -> Vec<Diagnostic> {
+    mistakes_in(&format!(
+        "{lines} struct Robot<T> {{ m: T, l: T, i: T, w: T, x: T, text: String, single: f32 }}"
+    ))
+}
+
+const JOINT: &str = "#[joint(q: revolute(z), world -> a)]";
+const BODY: &str = "#[body(a, mass = 1, inertia = diag(1, 1, 1))]";
+
+/// Lines that contain one mistake; `J` and `B` stand for a sound joint and a sound body.
+const LINES: &[(Code, &str)] = &[
+    (Code::Syntax, "#[joint(q: revolute(z) world -> a)] B"),
+    (Code::Syntax, "#[joint(q, world -> a)] B"),
+    (Code::Syntax, "#[joint(q: revolute(z))] B"),
+    (Code::Syntax, "#[joint(q: revolute(z), world = a)] B"),
+    (Code::Syntax, "#[joint(q: revolute(up), world -> a)] B"),
+    (Code::Syntax, "#[joint(q: revolute(z), world -> a, at = 3)] B"),
+    (Code::Syntax, "#[joint] B"),
+    (Code::Syntax, "J #[body(a, mass = 1 2, inertia = diag(1, 1, 1))]"),
+    (Code::Syntax, "J #[body(a, mass = 'c', inertia = diag(1, 1, 1))]"),
+    (Code::Syntax, "J #[body(a, mass = 0x10, inertia = diag(1, 1, 1))]"),
+    (Code::Syntax, "J #[body(a, mass, inertia = diag(1, 1, 1))]"),
+    (Code::Syntax, "J #[body(mass = 1, inertia = diag(1, 1, 1))]"),
+    (Code::Syntax, "J B #[dynamics(snap = maybe)]"),
+    (Code::Syntax, "J B #[dynamics(crate = 3)]"),
+    (Code::Syntax, "J B #[dynamics(crate = \"a b\")]"),
+    (Code::KeyUnknown, "J #[body(a, mass = 1, intertia = diag(1, 1, 1))]"),
+    (Code::KeyUnknown, "J #[body(a, mass = 1, inertia = diagonal(1, 1, 1))]"),
+    (Code::KeyUnknown, "J #[body(a, solid = cube(1, 1))]"),
+    (Code::KeyUnknown, "J B #[dynamics(quux = 3)]"),
+    (Code::KeyDuplicate, "J #[body(a, mass = 1, mass = 2, inertia = diag(1, 1, 1))]"),
+    (Code::KeyDuplicate, "J B #[dynamics(snap = on)] #[dynamics(snap = on)]"),
+    (Code::KeyDuplicate, "#[joint(q: revolute, world -> a, dh(0, 0, 0, 0), mdh(0, 0, 0, 0))] B"),
+    (Code::KeysConflict, "#[joint(q: revolute, world -> a, dh(0, 0, 0, 0), at = [0, 0, 1])] B"),
+    (Code::KeysConflict, "J B #[joint(f: fixed, a -> b, screw(z, [0, 0, 0]))]"),
+    (Code::KeysConflict, "J #[body(a, solid = sphere(1, 1), mass = 1)]"),
+    (Code::CountWrong, "#[joint(q: revolute(z), world -> a, at = [0, 1])] B"),
+    (Code::CountWrong, "#[joint(q: revolute, world -> a, dh(0, 0, 0))] B"),
+    (Code::CountWrong, "J #[body(a, mass = 1, inertia = [[1, 0, 0], [0, 1, 0]])]"),
+    (Code::CountWrong, "J #[body(a, solid = sphere(1))]"),
+    (Code::CountWrong, "J #[body(a, solid = cylinder(1, 2, 3, x, y))]"),
+    (Code::CountWrong, "#[joint(q: revolute, world -> a, screw(z))] B"),
+    (Code::NumberOutOfRange, "J #[body(a, mass = 1e400, inertia = diag(1, 1, 1))]"),
+    (Code::NumberOutOfRange, "J #[body(a, mass = 1e200 * 1e200, inertia = diag(1, 1, 1))]"),
+    (Code::NumberOutOfRange, "J #[body(a, mass = 1e200, com = [1e100, 0, 0], inertia = diag(1, 1, 1))]"),
+    (Code::UnitUnknown, "#[joint(q: revolute(z), world -> a, rpy = [0, 0, 90degs])] B"),
+    (Code::UnitUnknown, "#[joint(q: revolute(z), world -> a, at = [0, 0, 3parsecs])] B"),
+    (Code::FunctionUnknown, "#[joint(q: revolute(z), world -> a, rpy = [0, 0, tan(1)])] B"),
+    (Code::FunctionUnknown, "#[joint(q: revolute(z), world -> a, rpy = [0, 0, sine(1)])] B"),
+    (Code::FieldUnknown, "J #[body(a, mass = mm, inertia = diag(1, 1, 1))]"),
+    (Code::FieldUnknown, "J #[body(a, mass = payload, inertia = diag(1, 1, 1))]"),
+    (Code::FieldTypeUnsupported, "J #[body(a, mass = text, inertia = diag(1, 1, 1))]"),
+    (Code::FieldTypesDiffer, "J #[body(a, mass = m, com = [single, 0, 0], inertia = diag(1, 1, 1))]"),
+    (
+        Code::NameDuplicate,
+        "J B #[joint(q: revolute(x), a -> b)] #[body(b, mass = 1, inertia = diag(1, 1, 1))]",
+    ),
+    (Code::NameDuplicate, "J B B"),
+    (Code::NamesCollide, "J B #[joint(f: fixed, a -> tool_0)] #[joint(g: fixed, a -> Tool0)]"),
+    (Code::NamesCollide, "J B #[joint(Q: fixed, a -> tool)]"),
+    (Code::NameReserved, "J B #[body(world, mass = 1, inertia = diag(1, 1, 1))]"),
+    (Code::NameReserved, "J B #[joint(__: fixed, a -> b)]"),
+    (Code::JointMissing, ""),
+    (Code::DegreesOfFreedomMissing, "#[joint(q: fixed, world -> a)] B"),
+    (Code::ParentUnknown, "J B #[joint(f: fixed, aa -> b)]"),
+    (Code::ParentUnknown, "J B #[joint(f: fixed, shoulder -> b)]"),
+    (Code::BodyMissing, "J"),
+    (Code::WorldIsChild, "J B #[joint(f: fixed, a -> world)]"),
+    (Code::ParentTwice, "J B #[joint(f: fixed, world -> a)]"),
+    (Code::Cycle, "J B #[joint(f: fixed, b -> c)] #[joint(g: fixed, d -> b)] #[joint(h: fixed, c -> d)]"),
+    (Code::Cycle, "J B #[joint(f: fixed, b -> b)]"),
+    (Code::BodyUnreachable, "J B #[body(b)]"),
+    (Code::ParentAfterChild, "#[joint(p: revolute(x), a -> b)] #[body(b, solid = sphere(1, 1))] J B"),
+    (Code::JointKindUnknown, "#[joint(q: revolut(z), world -> a)] B"),
+    (Code::JointKindUnknown, "#[joint(q: ball, world -> a)] B"),
+    (Code::AxisMissing, "#[joint(q: revolute, world -> a)] B"),
+    (Code::AxisUnneeded, "#[joint(q: revolute(z), world -> a, dh(0, 0, 0, 0))] B"),
+    (Code::AxisUnneeded, "J B #[joint(f: fixed(z), a -> b)]"),
+    (Code::AxisZero, "#[joint(q: revolute([0, 0, 1 - 1]), world -> a)] B"),
+    (Code::AxisNotConstant, "#[joint(q: revolute([0, l, 1]), world -> a)] B"),
+    (Code::LimitsUnneeded, "#[joint(q: continuous(z), world -> a, limits = [-1, 1])] B"),
+    (Code::LimitsUnneeded, "J B #[joint(f: fixed, a -> b, effort = 3)]"),
+    (Code::LimitsInverted, "#[joint(q: revolute(z), world -> a, limits = [1, -1])] B"),
+    (Code::LimitNegative, "#[joint(q: revolute(z), world -> a, velocity = -3)] B"),
+    (Code::ConstantNeeded, "#[joint(q: prismatic(z), world -> a, limits = [0, l])] B"),
+    (Code::AngleLooksLikeDegrees, "#[joint(q: revolute(z), world -> a, rpy = [0, -90, 0])] B"),
+    (Code::AngleLooksLikeDegrees, "#[joint(q: revolute(z), world -> a, limits = [-3, 170.5])] B"),
+    (Code::InertiaMissing, "J #[body(a, mass = 1)]"),
+    (Code::MassMissing, "J #[body(a, inertia = diag(1, 1, 1))]"),
+    (Code::MassMissing, "J #[body(a, com = [1, 0, 0])]"),
+    (Code::MassNotPositive, "J #[body(a, mass = -1.5, inertia = diag(1, 1, 1))]"),
+    (Code::MassNotPositive, "J #[body(a, solid = sphere(0, 1))]"),
+    (Code::SizeNegative, "J #[body(a, solid = sphere(1, -0.2))]"),
+    (Code::InertiaNotSymmetric, "J #[body(a, mass = 1, inertia = [[1, 0, 0], [0, 1, 0.1], [0, 0.2, 1]])]"),
+    (Code::InertiaOrder, "J #[body(a, mass = 1, inertia = tensor(1, 0.1, 0, 0.1, 1, 0))]"),
+    (
+        Code::InertiaNonphysical,
+        "J #[body(a, mass = 1, com = [l-l, 0, 0], inertia = diag(0.066, 0.0125, 0.086))]",
+    ),
+    (Code::InertiaNonphysical, "J #[body(a, mass = 1, inertia = diag(-0.5, 1, 1))]"),
+    (Code::MovesNoMass, "J #[body(a)]"),
+    (Code::MovesNoInertia, "J #[body(a, com = [0, 0, l], solid = point(m))]"),
+    (Code::UnitMismatch, "J #[body(a, mass = m, com = [l, 0, 0], inertia = diag(m * l, 1, 1))]"),
+    (Code::UnitMismatch, "J #[body(a, mass = m, com = [l, 0, 0], inertia = diag(m * l * 1.0, 1, 1))]"),
+    (Code::UnitMismatch, "J #[body(a, mass = m, com = [m, 0, 0], inertia = diag(1, 1, 1))]"),
+    (Code::UnitMismatch, "J #[body(a, mass = 90deg, inertia = diag(1, 1, 1))]"),
+    (Code::UnitMismatch, "J #[body(a, mass = 3m, inertia = diag(1, 1, 1))]"),
+    (Code::UnitMismatch, "#[joint(q: revolute(z), world -> a, velocity = 90deg)] B"),
+    (Code::UnitMismatch, "#[joint(q: revolute(z), world -> a, at = [l * sin(l), 0, l])] B"),
+    (Code::UnitMismatch, "#[joint(q: prismatic(z), world -> a, at = [l, l / w, w])] B"),
+    (Code::UnitsDiffer, "J #[body(a, mass = m, com = [l, 0, 0], inertia = diag(m * (l + l*l), 1, 1))]"),
+    (Code::UnitsDiffer, "J #[body(a, mass = m, com = [x + x*1mm, 0, 0], inertia = diag(1, 1, 1))]"),
+    (Code::DivisionByZero, "J #[body(a, mass = 1 / (l - l), inertia = diag(1, 1, 1))]"),
+    (Code::RootOfNegative, "J #[body(a, mass = sqrt(1 - 2), inertia = diag(1, 1, 1))]"),
+    (Code::OutputUnknown, "J B #[dynamics(outputs(mass_matrx))]"),
+    (Code::AllowUnknown, "J B #[dynamics(allow(everything))]"),
+];
+
+/// Whole structs that contain one mistake.
+fn structs() -> Vec<(Code, String)> {
+    let deep = format!("{JOINT} #[body(a, mass = {}1{})] struct S;", "(".repeat(80), ")".repeat(80));
+    let many: String = (0..1001).map(|k| format!("#[joint(q{k}: revolute(z), world -> b{k})]")).collect();
+    vec![
+        (Code::NestingTooDeep, deep),
+        (Code::JointsTooMany, format!("{many} struct S;")),
+        (Code::StructNeeded, "enum E { A }".to_owned()),
+        (Code::StructNeeded, "union U { a: u8 }".to_owned()),
+        (Code::StructNeeded, "struct S(f64);".to_owned()),
+        (Code::AttributeMisplaced, format!("{JOINT} {BODY} struct S {{ #[joint(q: fixed)] a: f64 }}")),
+    ]
+}
+
+fn cases() -> Vec<(Code, String, Vec<Diagnostic>)> {
+    let expand = |line: &str| {
+        let parts = line.split(' ').map(|word| match word {
+            "J" => JOINT,
+            "B" => BODY,
+            word => word,
+        });
+        parts.collect::<Vec<_>>().join(" ")
+    };
+    let lines = LINES.iter().map(|(code, line)| (*code, (*line).to_owned(), mistakes(&expand(line))));
+    let structs = structs().into_iter().map(|(code, text)| {
+        let found = mistakes_in(&text);
+        (code, text, found)
+    });
+    lines.chain(structs).collect()
+}
+
+#[test]
+fn every_mistake_is_found_once_and_explained() {
+    let (mut text, mut wrong) = (String::new(), String::new());
+    for (code, input, found) in cases() {
+        let input: String = input.chars().take(120).collect();
+        let codes: Vec<_> = found.iter().map(|found| found.code).collect();
+        writeln!(text, "{code} in {input}").unwrap();
+        for found in &found {
+            writeln!(text, "    {}\n    help: {}", found.message, found.help_text()).unwrap();
+        }
+        if codes != [code] {
+            writeln!(wrong, "{code} in {input}: {found:#?}").unwrap();
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong}");
+    insta::assert_snapshot!(text);
+}
+
+#[test]
+fn every_code_has_a_case() {
+    let covered: Vec<_> =
+        LINES.iter().map(|(code, _)| *code).chain(structs().into_iter().map(|(code, _)| code)).collect();
+    for code in Code::ALL {
+        assert!(covered.contains(code), "{code} has no case");
+    }
+}

@@ -1,0 +1,52 @@
+//! What generated code needs, under names no user can shadow. Not part of the public interface.
+
+pub mod solve;
+
+pub use nalgebra::{ArrayStorage, SMatrix, SVector};
+
+pub use crate::dynamics::{
+    Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
+};
+pub use crate::error::Error;
+pub use crate::kinematics::{Frame, Kinematics, Pose};
+pub use crate::linearize::{Linearization, StateSpaceModel};
+pub use crate::mechanism::{Cost, Costs, JointLimits, Mechanism};
+pub use crate::scalar::{One, Scalar, Zero};
+pub use crate::state::{Configuration, State};
+pub use solve::solve_columns;
+
+/// `(sin x, cos x)`.
+#[inline(always)]
+pub fn sin_cos<T: Scalar>(x: T) -> (T, T) {
+    x.sin_cos()
+}
+
+/// `a·b + c`, fused where the target can.
+#[inline(always)]
+pub fn madd<T: Scalar>(a: T, b: T, c: T) -> T {
+    a.mul_add(b, c)
+}
+
+/// `√x`.
+#[inline(always)]
+pub fn sqrt<T: Scalar>(x: T) -> T {
+    x.sqrt()
+}
+
+/// The constant `value`.
+#[inline(always)]
+pub fn of<T: Scalar>(value: f64) -> T {
+    T::of(value)
+}
+
+/// The R×C matrix with the given columns.
+#[inline(always)]
+pub const fn columns<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
+    SMatrix::from_array_storage(ArrayStorage(columns))
+}
+
+/// The vector with the given entries.
+#[inline(always)]
+pub const fn vector<T, const N: usize>(entries: [T; N]) -> SVector<T, N> {
+    SVector::from_array_storage(ArrayStorage([entries]))
+}

@@ -1,0 +1,175 @@
+//! The equation of motion M(q)·v̇ + C(q,v)·v + G(q) = τ, and what is asked of it.
+//!
+//! Everything is in SI units and radians. Passive joint forces (damping, friction, springs, armature) act as soon as
+//! the robot's specification has them; armature is part of M.
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::error::Error;
+use crate::scalar::Scalar;
+
+/// The dynamics of a robot with `NQ` coordinates and `NV` velocities.
+///
+/// | | length | revolute | prismatic | ball, free |
+/// |---|---|---|---|---|
+/// | `q` | NQ | rad | m | quaternion i, j, k, w; position before it |
+/// | `v` | NV | rad/s | m/s | twist of the body in the body, linear before angular |
+/// | `a` | NV | rad/s² | m/s² | v̇ |
+/// | `tau` | NV | N·m | N | wrench on the body in the body; power is vᵀτ |
+///
+/// A force is positive along its joint's axis. The methods follow IEEE 754 and never panic: what is not finite, or a
+/// singular M, comes out as infinity or NaN; the `try_…` variants report it.
+///
+/// # Source
+///
+/// R. Murray, Z. Li, S. Sastry, *A Mathematical Introduction to Robotic Manipulation*, CRC Press 1994, ch. 4;
+/// R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008.
+pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
+    /// The mass matrix `M(q)`, NV×NV, symmetric positive definite; both halves are filled.
+    ///
+    /// In kg·m² between revolute, kg between prismatic coordinates.
+    fn mass_matrix(&self, q: &SVector<T, NQ>) -> SMatrix<T, NV, NV>;
+
+    /// The Coriolis matrix `C(q,v)`, NV×NV, with `Ṁ = C + Cᵀ`.
+    ///
+    /// The Levi-Civita choice: between one-dof joints the matrix of Christoffel symbols.
+    ///
+    /// # Source
+    ///
+    /// S. Echeandia, P. Wensing, *Numerical methods to compute the Coriolis matrix*, J. Comput. Nonlinear Dyn. 2021.
+    fn coriolis_matrix(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SMatrix<T, NV, NV>;
+
+    /// The gravity forces `G(q) = ∂V/∂q`, NV, on the left-hand side: the joint forces that hold the robot still.
+    fn gravity_forces(&self, q: &SVector<T, NQ>) -> SVector<T, NV>;
+
+    /// The bias forces `h(q,v) = C·v + G` + passive joint forces, NV.
+    fn bias_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV>;
+
+    /// The joint forces `τ = M·a + C·v + G` + passive joint forces, NV.
+    fn inverse_dynamics(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>, a: &SVector<T, NV>) -> SVector<T, NV>;
+
+    /// The accelerations `a = M(q)⁻¹·(τ − h(q,v))`, NV.
+    fn forward_dynamics(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> SVector<T, NV>;
+
+    /// The kinetic energy `T = ½ vᵀ·M(q)·v`, in J.
+    fn kinetic_energy(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T;
+
+    /// The potential energy `V(q)` of gravity, in J, zero where all centres of mass are at the world's origin.
+    fn potential_energy(&self, q: &SVector<T, NQ>) -> T;
+
+    /// The Lagrangian `L = T − V`, in J.
+    fn lagrangian(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T;
+
+    /// The total energy `T + V`, in J; conserved without passive and driving forces.
+    #[inline]
+    fn total_energy(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T {
+        self.kinetic_energy(q, v) + self.potential_energy(q)
+    }
+
+    /// `M(q)`, `C(q,v)` and `G(q)` in one; generated code shares the work between them.
+    #[inline]
+    fn equations_of_motion(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> EquationsOfMotion<T, NV> {
+        EquationsOfMotion {
+            mass_matrix: self.mass_matrix(q),
+            coriolis_matrix: self.coriolis_matrix(q, v),
+            gravity_forces: self.gravity_forces(q),
+        }
+    }
+
+    /// [`inverse_dynamics`](Self::inverse_dynamics), checked.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] names the argument and the index; under the name `tau` it is the result that overflowed.
+    fn try_inverse_dynamics(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> Result<SVector<T, NV>, Error> {
+        Error::unless_finite("q", q)?;
+        Error::unless_finite("v", v)?;
+        Error::unless_finite("a", a)?;
+        let tau = self.inverse_dynamics(q, v, a);
+        Error::unless_finite("tau", &tau)?;
+        Ok(tau)
+    }
+
+    /// [`forward_dynamics`](Self::forward_dynamics), checked.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] names the argument and the index; [`Error::SingularMassMatrix`] if the arguments are
+    /// finite and the result is not.
+    fn try_forward_dynamics(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> Result<SVector<T, NV>, Error> {
+        Error::unless_finite("q", q)?;
+        Error::unless_finite("v", v)?;
+        Error::unless_finite("tau", tau)?;
+        let a = self.forward_dynamics(q, v, tau);
+        if a.iter().all(|a| a.is_finite()) { Ok(a) } else { Err(Error::SingularMassMatrix) }
+    }
+}
+
+/// The exact first derivatives of the dynamics.
+///
+/// With ball and free joints a derivative by `q` is taken in the tangent space, by the `δ` of `q ⊕ δ`.
+pub trait DynamicsDerivatives<T: Scalar, const NQ: usize, const NV: usize>: Dynamics<T, NQ, NV> {
+    /// The derivatives of [`inverse_dynamics`](Dynamics::inverse_dynamics), three of NV×NV.
+    fn inverse_dynamics_derivatives(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> InverseDynamicsDerivatives<T, NV>;
+
+    /// The derivatives of [`forward_dynamics`](Dynamics::forward_dynamics), three of NV×NV.
+    fn forward_dynamics_derivatives(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> ForwardDynamicsDerivatives<T, NV>;
+}
+
+/// `M(q)`, `C(q,v)` and `G(q)` at one state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct EquationsOfMotion<T, const NV: usize> {
+    /// `M(q)`, see [`Dynamics::mass_matrix`].
+    pub mass_matrix: SMatrix<T, NV, NV>,
+    /// `C(q,v)`, see [`Dynamics::coriolis_matrix`].
+    pub coriolis_matrix: SMatrix<T, NV, NV>,
+    /// `G(q)`, see [`Dynamics::gravity_forces`].
+    pub gravity_forces: SVector<T, NV>,
+}
+
+/// How the joint forces change with position, velocity and acceleration. Row: force; column: what changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InverseDynamicsDerivatives<T, const NV: usize> {
+    /// `∂τ/∂q`.
+    pub dtau_dq: SMatrix<T, NV, NV>,
+    /// `∂τ/∂v`.
+    pub dtau_dv: SMatrix<T, NV, NV>,
+    /// `∂τ/∂a = M(q)`.
+    pub dtau_da: SMatrix<T, NV, NV>,
+}
+
+/// How the accelerations change with position, velocity and force. Row: acceleration; column: what changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForwardDynamicsDerivatives<T, const NV: usize> {
+    /// `∂a/∂q`.
+    pub da_dq: SMatrix<T, NV, NV>,
+    /// `∂a/∂v`.
+    pub da_dv: SMatrix<T, NV, NV>,
+    /// `∂a/∂τ = M(q)⁻¹`.
+    pub da_dtau: SMatrix<T, NV, NV>,
+}

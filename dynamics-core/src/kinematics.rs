@@ -1,0 +1,117 @@
+//! Where the frames of a robot are, and how they move.
+//!
+//! A frame is a zero-sized type named after it, so that `robot.pose::<Tool0>(&q)` links the code of that one frame
+//! and a misspelt frame is a compile error.
+
+use core::ops::Mul;
+
+use nalgebra::{SMatrix, SVector};
+
+use crate::dynamics::Dynamics;
+use crate::product::product;
+use crate::scalar::Scalar;
+
+/// A frame fixed to a body of the robot `R`. Implemented by generated code on zero-sized types.
+///
+/// Six-vectors are linear first, then angular.
+pub trait Frame<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
+    /// The name of the body or frame in the robot's specification.
+    const NAME: &'static str;
+
+    /// The pose of the frame in the world.
+    fn pose(robot: &R, q: &SVector<T, NQ>) -> Pose<T>;
+
+    /// The body Jacobian, 6×NV: `J·v` is the frame's twist relative to the world, expressed in the frame itself.
+    fn jacobian(robot: &R, q: &SVector<T, NQ>) -> SMatrix<T, 6, NV>;
+
+    /// The Jacobian in world axes, 6×NV: `J·v` is the velocity of the frame's origin, then the angular velocity.
+    fn world_jacobian(robot: &R, q: &SVector<T, NQ>) -> SMatrix<T, 6, NV>;
+}
+
+/// The kinematics of every robot: one method per question, the frame as its type argument.
+///
+/// All methods are provided; there is nothing to implement but [`Frame`].
+pub trait Kinematics<T: Scalar, const NQ: usize, const NV: usize> {
+    /// The pose of `F` in the world, in m.
+    #[inline(always)]
+    fn pose<F: Frame<Self, T, NQ, NV>>(&self, q: &SVector<T, NQ>) -> Pose<T> {
+        F::pose(self, q)
+    }
+
+    /// The body Jacobian of `F`, 6×NV, linear rows first.
+    ///
+    /// `J·v` is the twist of `F` relative to the world, expressed in `F` (Murray, Li and Sastry's body Jacobian;
+    /// Pinocchio's `LOCAL`).
+    #[inline(always)]
+    fn jacobian<F: Frame<Self, T, NQ, NV>>(&self, q: &SVector<T, NQ>) -> SMatrix<T, 6, NV> {
+        F::jacobian(self, q)
+    }
+
+    /// The Jacobian of `F` in world axes, 6×NV, linear rows first.
+    ///
+    /// `J·v` is the velocity of the origin of `F`, then the angular velocity of `F`, both in world axes (Pinocchio's
+    /// `LOCAL_WORLD_ALIGNED`; not the spatial Jacobian, whose reference point is the world's origin).
+    #[inline(always)]
+    fn world_jacobian<F: Frame<Self, T, NQ, NV>>(&self, q: &SVector<T, NQ>) -> SMatrix<T, 6, NV> {
+        F::world_jacobian(self, q)
+    }
+
+    /// The body velocity `J(q)·v` of `F`: m/s, then rad/s, expressed in `F`.
+    #[inline]
+    fn velocity<F: Frame<Self, T, NQ, NV>>(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, 6> {
+        product(&F::jacobian(self, q), v)
+    }
+}
+
+impl<R, T: Scalar, const NQ: usize, const NV: usize> Kinematics<T, NQ, NV> for R where
+    R: Dynamics<T, NQ, NV> + ?Sized
+{
+}
+
+/// A rigid placement: `x_world = rotation·x_frame + translation`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose<T> {
+    /// The rotation, 3×3, that takes components in the frame to components in the world.
+    pub rotation: SMatrix<T, 3, 3>,
+    /// The origin of the frame in the world, in m.
+    pub translation: SVector<T, 3>,
+}
+
+impl<T: Scalar> Pose<T> {
+    /// The frame that coincides with the world.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self { rotation: SMatrix::identity(), translation: SVector::zeros() }
+    }
+
+    /// The placement of the world in the frame: `Rᵀ` and `−Rᵀ·p`.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let rotation = self.rotation.transpose();
+        Self { rotation, translation: -product(&rotation, &self.translation) }
+    }
+
+    /// The point `R·x + p`: from coordinates in the frame to coordinates in the world, in m.
+    #[must_use]
+    pub fn transform_point(&self, point: &SVector<T, 3>) -> SVector<T, 3> {
+        product(&self.rotation, point) + self.translation
+    }
+
+    /// The free vector `R·x`: from components in the frame to components in the world.
+    #[must_use]
+    pub fn transform_vector(&self, vector: &SVector<T, 3>) -> SVector<T, 3> {
+        product(&self.rotation, vector)
+    }
+}
+
+impl<T: Scalar> Mul for Pose<T> {
+    type Output = Self;
+
+    /// `X_AB·X_BC = X_AC`.
+    fn mul(self, rhs: Self) -> Self {
+        Self {
+            rotation: product(&self.rotation, &rhs.rotation),
+            translation: self.transform_point(&rhs.translation),
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The run time of generated robot dynamics.
+//!
+//! For a robot with coordinates q and velocities v, this crate gives names and types to the terms of
+//!
+//! > M(q)·v̇ + C(q,v)·v + G(q) = τ
+//!
+//! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), [simulation](Simulation),
+//! [linearisation](StateSpaceModel). The derive macro writes the implementations, specialised to one robot.
+//! No heap, no `unsafe`, no panics, no standard library unless asked for.
+//!
+//! # Conventions
+//!
+//! | | |
+//! |---|---|
+//! | units | SI and radians |
+//! | gravity | 9.81 m/s² along −z of the world unless the robot says otherwise |
+//! | `C` | Levi-Civita: C·v + G is exact and Ṁ = C + Cᵀ; between one-dof joints the Christoffel matrix |
+//! | `G` | ∂V/∂q, on the left-hand side: the forces that hold the robot still |
+//! | `tau` | positive along the joint's axis; vᵀτ is the power put in |
+//! | six-vectors | linear first, then angular |
+//! | quaternions | i, j, k, w, of unit length; before them, in a free joint, the position |
+//! | velocity of a free joint | the twist of the body, in the body |
+//! | derivatives by `q` | in the tangent space: by δ of `q ⊕ δ` |
+//! | poses | map coordinates in the frame to coordinates in the world |
+//! | not finite, singular | IEEE 754 in plain methods, an [`Error`] from `try_…` methods and simulation |
+//!
+//! # Features
+//!
+//! | | |
+//! |---|---|
+//! | `derive` (default) | the derive macro `Dynamics` |
+//! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like |
+//! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
+#![no_std]
+#![forbid(unsafe_code)]
+#![cfg_attr(docsrs, feature(doc_cfg))]
+
+#[cfg(any(feature = "std", test))]
+extern crate std;
+
+#[doc(hidden)]
+pub mod __private;
+pub mod dynamics;
+pub mod error;
+pub mod kinematics;
+pub mod linearize;
+pub mod mechanism;
+mod product;
+pub mod scalar;
+pub mod simulate;
+#[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
+mod square_root;
+pub mod state;
+pub mod trigonometry;
+
+pub use nalgebra;
+
+#[cfg(feature = "derive")]
+pub use dynamics_macros::Dynamics;
+
+pub use dynamics::{
+    Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
+};
+pub use error::Error;
+pub use kinematics::{Frame, Kinematics, Pose};
+pub use linearize::{Linearization, StateSpaceModel};
+pub use mechanism::{Cost, Costs, JointLimits, Mechanism};
+pub use scalar::Scalar;
+pub use simulate::{Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation};
+pub use state::{Configuration, State};
+
+/// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
+pub mod prelude {
+    pub use crate::{
+        Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy, EquationsOfMotion, Error,
+        ForwardDynamicsDerivatives, Frame, Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics,
+        Linearization, Mechanism, Pose, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation, State,
+        StateSpaceModel,
+    };
+    pub use nalgebra::{SMatrix, SVector};
+}

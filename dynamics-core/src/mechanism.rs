@@ -1,0 +1,162 @@
+//! What is constant about a robot: sizes, names, limits, and what its equations cost.
+
+use core::fmt;
+
+/// The constants of a robot, without type parameters, so that `Iiwa14::JOINT_NAMES` is all one writes.
+pub trait Mechanism {
+    /// The number of configuration coordinates, the length of `q`.
+    const NQ: usize;
+    /// The number of velocities, the length of `v`, `a` and `tau`.
+    const NV: usize;
+    /// The number of actuators, the length of `u`.
+    const NU: usize;
+    /// The robot's name.
+    const NAME: &'static str;
+    /// The moving joints, in the order of their coordinates; a free joint is one.
+    const JOINT_NAMES: &'static [&'static str];
+    /// The bodies, parents before children; the world is not one of them.
+    const BODY_NAMES: &'static [&'static str];
+    /// The limits, one entry per velocity coordinate, in the order of `v`.
+    const LIMITS: &'static [JointLimits];
+    /// The operations each method takes.
+    const COST: Costs;
+}
+
+/// The limits of one velocity coordinate, in rad, rad/s, N·m (prismatic: m, m/s, N).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct JointLimits {
+    /// The least coordinate; −∞ if there is none.
+    pub lower: f64,
+    /// The greatest coordinate; ∞ if there is none.
+    pub upper: f64,
+    /// The greatest speed; ∞ if there is none.
+    pub velocity: f64,
+    /// The greatest joint force; ∞ if there is none.
+    pub effort: f64,
+}
+
+impl JointLimits {
+    /// No limits: every bound is infinite.
+    pub const NONE: Self = Self {
+        lower: f64::NEG_INFINITY,
+        upper: f64::INFINITY,
+        velocity: f64::INFINITY,
+        effort: f64::INFINITY,
+    };
+}
+
+impl Default for JointLimits {
+    fn default() -> Self {
+        Self::NONE
+    }
+}
+
+/// The operations of one straight-line function; displayed like `193 mul, 183 add, 7 sincos`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Cost {
+    /// Products, those within a fused multiply-add too.
+    pub multiplications: u32,
+    /// Sums and differences, those within a fused multiply-add too.
+    pub additions: u32,
+    /// Quotients and reciprocals.
+    pub divisions: u32,
+    /// Square roots.
+    pub square_roots: u32,
+    /// Evaluations of a sine with its cosine.
+    pub sines_and_cosines: u32,
+}
+
+impl Cost {
+    /// No operations.
+    pub const ZERO: Self =
+        Self { multiplications: 0, additions: 0, divisions: 0, square_roots: 0, sines_and_cosines: 0 };
+}
+
+impl fmt::Display for Cost {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let entries = [
+            (self.multiplications, "mul"),
+            (self.additions, "add"),
+            (self.divisions, "div"),
+            (self.square_roots, "sqrt"),
+            (self.sines_and_cosines, "sincos"),
+        ];
+        let mut separator = "";
+        for (count, name) in entries {
+            if count > 0 {
+                write!(f, "{separator}{count} {name}")?;
+                separator = ", ";
+            }
+        }
+        if separator.is_empty() { f.write_str("nothing") } else { Ok(()) }
+    }
+}
+
+/// The operations of every method of a robot.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Costs {
+    /// Of [`mass_matrix`](crate::Dynamics::mass_matrix).
+    pub mass_matrix: Cost,
+    /// Of [`coriolis_matrix`](crate::Dynamics::coriolis_matrix).
+    pub coriolis_matrix: Cost,
+    /// Of [`gravity_forces`](crate::Dynamics::gravity_forces).
+    pub gravity_forces: Cost,
+    /// Of [`bias_forces`](crate::Dynamics::bias_forces).
+    pub bias_forces: Cost,
+    /// Of [`inverse_dynamics`](crate::Dynamics::inverse_dynamics).
+    pub inverse_dynamics: Cost,
+    /// Of [`forward_dynamics`](crate::Dynamics::forward_dynamics).
+    pub forward_dynamics: Cost,
+    /// Of [`kinetic_energy`](crate::Dynamics::kinetic_energy).
+    pub kinetic_energy: Cost,
+    /// Of [`potential_energy`](crate::Dynamics::potential_energy).
+    pub potential_energy: Cost,
+    /// Of [`lagrangian`](crate::Dynamics::lagrangian).
+    pub lagrangian: Cost,
+    /// Of [`equations_of_motion`](crate::Dynamics::equations_of_motion).
+    pub equations_of_motion: Cost,
+    /// Of [`inverse_dynamics_derivatives`](crate::DynamicsDerivatives::inverse_dynamics_derivatives).
+    pub inverse_dynamics_derivatives: Cost,
+    /// Of [`forward_dynamics_derivatives`](crate::DynamicsDerivatives::forward_dynamics_derivatives).
+    pub forward_dynamics_derivatives: Cost,
+    /// Of `prepare`, the work that depends on parameters alone.
+    pub prepare: Cost,
+}
+
+impl Costs {
+    /// No operations anywhere.
+    pub const ZERO: Self = Self {
+        mass_matrix: Cost::ZERO,
+        coriolis_matrix: Cost::ZERO,
+        gravity_forces: Cost::ZERO,
+        bias_forces: Cost::ZERO,
+        inverse_dynamics: Cost::ZERO,
+        forward_dynamics: Cost::ZERO,
+        kinetic_energy: Cost::ZERO,
+        potential_energy: Cost::ZERO,
+        lagrangian: Cost::ZERO,
+        equations_of_motion: Cost::ZERO,
+        inverse_dynamics_derivatives: Cost::ZERO,
+        forward_dynamics_derivatives: Cost::ZERO,
+        prepare: Cost::ZERO,
+    };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::string::ToString;
+
+    #[test]
+    fn zero_entries_are_left_out() {
+        let cost = Cost { multiplications: 193, additions: 183, sines_and_cosines: 7, ..Cost::ZERO };
+        assert_eq!(cost.to_string(), "193 mul, 183 add, 7 sincos");
+        assert_eq!(Cost { divisions: 1, ..Cost::ZERO }.to_string(), "1 div");
+        assert_eq!(Cost::ZERO.to_string(), "nothing");
+    }
+
+    #[test]
+    fn zero_is_the_default() {
+        assert_eq!(Costs::ZERO, Costs::default());
+    }
+}

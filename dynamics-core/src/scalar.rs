@@ -1,0 +1,115 @@
+//! The numbers the generated code computes with.
+//!
+//! Straight-line code asks little of a number: ring operations, division, a constant, a sine with its cosine, a
+//! square root. There is no comparison here, so that dual numbers and SIMD lanes can be scalars.
+
+use core::ops::Neg;
+
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+pub use num_traits::{One, Zero};
+
+use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
+
+/// Whether [`Scalar::mul_add`] of `f32` and `f64` rounds once, by one instruction.
+///
+/// True with feature `std` on a target with fused multiply-add: x86 with `-C target-feature=+fma` (or a
+/// `target-cpu` that has it) and aarch64. Elsewhere a fused operation would be a library call, so `a·b + c` it is.
+pub const FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")));
+
+/// A real number, or several of them side by side, or one with its derivatives.
+///
+/// Implemented for `f32` and `f64`. Every method of an implementation should be `#[inline(always)]`: generated code
+/// calls them by the hundred, and firmware built without optimisation links whatever is not inlined.
+pub trait Scalar:
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
+    + Neg<Output = Self>
+{
+    /// The constant `value`, rounded to `Self`.
+    fn of(value: f64) -> Self;
+
+    /// `(sin self, cos self)`, the angle in radians, from one range reduction.
+    ///
+    /// For `f32` and `f64` the kernels of [`trigonometry`](crate::trigonometry), which state range and error.
+    fn sin_cos(self) -> (Self, Self);
+
+    /// `√self`; NaN below zero.
+    ///
+    /// Correctly rounded for `f32` and `f64` with feature `std` or `libm`, within 1 ulp without either.
+    fn sqrt(self) -> Self;
+
+    /// Whether `self` is neither infinite nor NaN, in every lane and derivative it has.
+    fn is_finite(self) -> bool;
+
+    /// `self·a + b`, rounded once where that is one instruction ([`FUSED`]), else twice.
+    #[inline(always)]
+    fn mul_add(self, a: Self, b: Self) -> Self {
+        self * a + b
+    }
+}
+
+macro_rules! impl_scalar {
+    ($float:ident, $sin_cos:path, $libm_sqrt:path, $own_sqrt:path) => {
+        impl Scalar for $float {
+            #[inline(always)]
+            fn of(value: f64) -> Self {
+                value as $float
+            }
+
+            #[inline(always)]
+            fn sin_cos(self) -> (Self, Self) {
+                $sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sqrt(self) -> Self {
+                #[cfg(feature = "std")]
+                return $float::sqrt(self);
+                #[cfg(all(feature = "libm", not(feature = "std")))]
+                return $libm_sqrt(self);
+                #[cfg(not(any(feature = "libm", feature = "std")))]
+                return $own_sqrt(self);
+            }
+
+            #[inline(always)]
+            fn is_finite(self) -> bool {
+                $float::is_finite(self)
+            }
+
+            #[inline(always)]
+            fn mul_add(self, a: Self, b: Self) -> Self {
+                #[cfg(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")))]
+                return $float::mul_add(self, a, b);
+                #[cfg(not(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64"))))]
+                return self * a + b;
+            }
+        }
+    };
+}
+
+impl_scalar!(f64, sin_cos_f64, libm::sqrt, crate::square_root::sqrt_f64);
+impl_scalar!(f32, sin_cos_f32, libm::sqrtf, crate::square_root::sqrt_f32);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_rounded_to_the_scalar() {
+        assert_eq!(<f32 as Scalar>::of(core::f64::consts::PI), core::f32::consts::PI);
+        assert_eq!(<f64 as Scalar>::of(core::f64::consts::PI), core::f64::consts::PI);
+    }
+
+    #[test]
+    fn mul_add_rounds_once_exactly_where_the_constant_says_so() {
+        let x = 1.0 + f64::EPSILON;
+        let lost_by_rounding = Scalar::mul_add(x, x, -(x * x));
+        assert_eq!(lost_by_rounding != 0.0, FUSED);
+    }
+}

@@ -1,0 +1,49 @@
+//! The state of a robot, and how a configuration moves along a velocity.
+
+use nalgebra::SVector;
+
+use crate::error::Error;
+use crate::scalar::Scalar;
+
+/// Position and velocity: `x = (q, v)`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct State<T, const NQ: usize, const NV: usize> {
+    /// The configuration, in rad or m.
+    pub q: SVector<T, NQ>,
+    /// The velocity, in rad/s or m/s.
+    pub v: SVector<T, NV>,
+}
+
+impl<T: Scalar, const NQ: usize, const NV: usize> State<T, NQ, NV> {
+    /// The state `(q, v)`.
+    #[must_use]
+    pub const fn new(q: SVector<T, NQ>, v: SVector<T, NV>) -> Self {
+        Self { q, v }
+    }
+
+    /// The state `(q, 0)`.
+    #[must_use]
+    pub fn rest(q: SVector<T, NQ>) -> Self {
+        Self { q, v: SVector::zeros() }
+    }
+
+    /// `Ok` if every entry is finite.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] with `q` or `v` and the index.
+    pub fn check(&self) -> Result<(), Error> {
+        Error::unless_finite("q", &self.q)?;
+        Error::unless_finite("v", &self.v)
+    }
+}
+
+/// The configurations of a robot: a vector space for one-dof joints, a manifold with ball and free joints.
+pub trait Configuration<T: Scalar, const NQ: usize, const NV: usize> {
+    /// `q ⊕ δ`, NQ: where `q` gets to under the constant velocity `δ` in one unit of time.
+    ///
+    /// For one-dof joints `q + δ`. For a ball joint `q·exp(δ)`, a unit quaternion; for a free joint the same in SE(3),
+    /// `δ` being a twist in the body. It must be that exponential and no mere first-order update: the order of
+    /// [`Rk4`](crate::simulate::Rk4) rests on it.
+    fn integrate(&self, q: &SVector<T, NQ>, delta: &SVector<T, NV>) -> SVector<T, NQ>;
+}

@@ -1,0 +1,140 @@
+//! Sine and cosine together: straight-line kernels for `f64` and `f32`.
+//!
+//! One range reduction serves both functions. There is no branch, no table and no call, so that the kernels inline
+//! into generated code and vectorise; the `f32` kernel never touches `f64`.
+//!
+//! | kernel | range | largest absolute error | beyond |
+//! |---|---|---|---|
+//! | [`sin_cos_f64`] | \|x\| ≤ 2³⁰ | 1.7e-16 | NaN from 2⁴⁹ on |
+//! | [`sin_cos_f32`] | \|x\| ≤ 10⁴ | 9.2e-8 | NaN from 2²⁰ on |
+//!
+//! In between, the error is at most the spacing of floats at `x`. Infinity and NaN give NaN.
+//!
+//! Sources: W. J. Cody and W. Waite, *Software Manual for the Elementary Functions*, Prentice-Hall 1980 (reduction in
+//! parts); the polynomials of fdlibm (Sun Microsystems 1993) for `f64`, minimax fits of our own for `f32`.
+
+use core::f32::consts as pi32;
+use core::f64::consts as pi64;
+
+use crate::scalar::{FUSED, Scalar};
+
+/// `(sin x, cos x)`, with `x` in radians.
+///
+/// For |x| ≤ 2³⁰ the absolute error of either is at most 1.7e-16 (measured against 80-bit arithmetic). Beyond, where
+/// the target has no fused multiply-add, the reduction is wrong by up to the spacing of `f64` at `x`. From
+/// |x| = 2⁴⁹ on, and for infinity and NaN, both results are NaN: wrong digits would be worse.
+///
+/// # Cost
+///
+/// 20 multiplications, 18 additions, most of them fused where the target can: 4 ns a pair, 12 ns from argument to
+/// result, on a server core of 2023 with `target-cpu=native`.
+#[inline(always)]
+#[must_use]
+pub fn sin_cos_f64(x: f64) -> (f64, f64) {
+    const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5·2⁵²: adding it leaves the integer in the low bits
+    const LIMIT: f64 = 562_949_953_421_312.0; // 2⁴⁹
+    let rounded = madd(x, pi64::FRAC_2_PI, ROUND);
+    let quarter_turns = rounded - ROUND;
+    let r = reduce_f64(x, quarter_turns);
+    let r = if x.abs() < LIMIT { r } else { f64::NAN };
+
+    let z = r * r;
+    let z2 = z * z;
+    let s12 = madd(z, 8.333_333_333_322_49e-3, -1.666_666_666_666_663_2e-1);
+    let s34 = madd(z, 2.755_731_370_707_006_8e-6, -1.984_126_982_985_795e-4);
+    let s56 = madd(z, 1.589_690_995_211_55e-10, -2.505_076_025_340_686_3e-8);
+    let c12 = madd(z, -1.388_888_888_887_411e-3, 4.166_666_666_666_66e-2);
+    let c34 = madd(z, -2.755_731_435_139_066_3e-7, 2.480_158_728_947_673e-5);
+    let c56 = madd(z, -1.135_964_755_778_819_5e-11, 2.087_572_321_298_175e-9);
+    let s = madd(z2, madd(z2, s56, s34), s12);
+    let c = madd(z2, madd(z2, c56, c34), c12);
+    let sin = madd(r * z, s, r);
+    let cos = madd(z2, c, madd(z, -0.5, 1.0));
+
+    turn_f64(sin, cos, rounded.to_bits())
+}
+
+/// `r = x − k·π/2`, with π/2 in parts short enough that the first products are exact.
+#[inline(always)]
+fn reduce_f64(x: f64, k: f64) -> f64 {
+    if FUSED {
+        let r = madd(-k, pi64::FRAC_PI_2, x); // exact
+        madd(-k, 6.123_233_995_736_766e-17, r)
+    } else {
+        // 23, 23 and 53 bits: the first two products are exact for |k| ≤ 2³⁰.
+        const P1: f64 = f64::from_bits(0x3FF9_21FB_4000_0000);
+        const P2: f64 = f64::from_bits(0x3E74_442D_0000_0000);
+        const P3: f64 = f64::from_bits(0x3CF8_4698_98CC_5170);
+        ((x - k * P1) - k * P2) - k * P3
+    }
+}
+
+/// Turns `(sin r, cos r)` by the quarter turns in the two lowest bits: swaps and signs without a branch.
+#[inline(always)]
+fn turn_f64(sin: f64, cos: f64, quarter_turns: u64) -> (f64, f64) {
+    let odd = quarter_turns & 1 != 0;
+    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
+    let sign_s = (quarter_turns & 2) << 62;
+    let sign_c = (quarter_turns.wrapping_add(1) & 2) << 62;
+    (f64::from_bits(s.to_bits() ^ sign_s), f64::from_bits(c.to_bits() ^ sign_c))
+}
+
+/// `(sin x, cos x)`, with `x` in radians, without a single operation in `f64`.
+///
+/// For |x| ≤ 10⁴ the absolute error of either is at most 9.2e-8 (measured). Beyond, the reduction
+/// is wrong by up to the spacing of `f32` at `x`. From |x| = 2²⁰ on, and for infinity and NaN, both results are NaN.
+///
+/// # Cost
+///
+/// 14 multiplications, 12 additions, most of them fused where the target can.
+#[inline(always)]
+#[must_use]
+pub fn sin_cos_f32(x: f32) -> (f32, f32) {
+    const ROUND: f32 = 12_582_912.0; // 1.5·2²³
+    const LIMIT: f32 = 1_048_576.0; // 2²⁰
+    let rounded = madd(x, pi32::FRAC_2_PI, ROUND);
+    let r = reduce_f32(x, rounded - ROUND);
+    let r = if x.abs() < LIMIT { r } else { f32::NAN };
+
+    let z = r * r;
+    let s = madd(z, madd(z, -1.949_595_5e-4, 8.331_982e-3), -1.666_665_1e-1);
+    let c = madd(z, madd(z, 2.443_066_1e-5, -1.388_730_1e-3), 4.166_664_6e-2);
+    let sin = madd(r * z, s, r);
+    let cos = madd(z * z, c, madd(z, -0.5, 1.0));
+
+    turn_f32(sin, cos, rounded.to_bits())
+}
+
+/// `r = x − k·π/2`, with π/2 in parts short enough that the first products are exact.
+#[inline(always)]
+fn reduce_f32(x: f32, k: f32) -> f32 {
+    if FUSED {
+        let r = madd(-k, pi32::FRAC_PI_2, x); // exact
+        madd(-k, -4.371_139e-8, r)
+    } else {
+        // 11, 11 and 24 bits: the first two products are exact for |k| ≤ 2¹³.
+        const P1: f32 = f32::from_bits(0x3FC9_0000);
+        const P2: f32 = f32::from_bits(0x39FD_A000);
+        const P3: f32 = f32::from_bits(0x33A2_2169);
+        ((x - k * P1) - k * P2) - k * P3
+    }
+}
+
+/// [`turn_f64`] for `f32`.
+#[inline(always)]
+fn turn_f32(sin: f32, cos: f32, quarter_turns: u32) -> (f32, f32) {
+    let odd = quarter_turns & 1 != 0;
+    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
+    let sign_s = (quarter_turns & 2) << 30;
+    let sign_c = (quarter_turns.wrapping_add(1) & 2) << 30;
+    (f32::from_bits(s.to_bits() ^ sign_s), f32::from_bits(c.to_bits() ^ sign_c))
+}
+
+/// `a·b + c`, fused where the target can.
+#[inline(always)]
+fn madd<T: Scalar>(a: T, b: T, c: T) -> T {
+    a.mul_add(b, c)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,76 @@
+//! Frames as type arguments: the calls a user writes, and what the Jacobians mean.
+#![cfg(feature = "std")]
+
+mod common;
+
+use common::{Bob, DoublePendulum, Pendulum, Tool0};
+use dynamics_core::prelude::*;
+
+#[test]
+fn a_frame_is_the_only_type_argument() {
+    let robot = Pendulum { m: 2.0, l: 0.5, damping: 0.0 };
+    let q = SVector::from([0.3]);
+    let v = SVector::from([2.0]);
+    assert_eq!(robot.pose::<Bob>(&q).translation.x, 0.0);
+    assert_eq!(robot.jacobian::<Bob>(&q)[1], 0.5);
+    assert_eq!(robot.velocity::<Bob>(&q, &v)[3], 2.0);
+
+    let robot = DoublePendulum;
+    let q = SVector::from([0.3, -0.4]);
+    assert!(robot.pose::<Tool0>(&q).translation.norm() < 2.0);
+    assert_eq!(robot.world_jacobian::<Tool0>(&q).shape(), (6, 2));
+    let q = SVector::from([0.3_f32, -0.4]);
+    assert!(robot.pose::<Tool0>(&q).translation.norm() < 2.0_f32);
+}
+
+#[test]
+fn frames_work_in_generic_code() {
+    fn height<T: Scalar, R, F>(robot: &R, q: &SVector<T, 2>) -> T
+    where
+        R: Dynamics<T, 2, 2>,
+        F: Frame<R, T, 2, 2>,
+    {
+        robot.pose::<F>(q).translation.z
+    }
+    assert_eq!(height::<f64, _, Tool0>(&DoublePendulum, &SVector::from([0.0, 0.0])), -2.0);
+}
+
+#[test]
+fn a_boxed_robot_is_a_robot() {
+    let robot: Box<dyn Dynamics<f64, 2, 2>> = Box::new(DoublePendulum);
+    assert_eq!(robot.gravity_forces(&SVector::zeros()).norm(), 0.0);
+}
+
+#[test]
+fn world_jacobian_is_the_derivative_of_the_origin() {
+    let (robot, q, h) = (DoublePendulum, SVector::from([0.7, -1.1]), 1e-6);
+    let jacobian = robot.world_jacobian::<Tool0>(&q);
+    for joint in 0..2 {
+        let mut delta = SVector::zeros();
+        delta[joint] = h;
+        let (ahead, behind) = (robot.pose::<Tool0>(&(q + delta)), robot.pose::<Tool0>(&(q - delta)));
+        let difference = (ahead.translation - behind.translation) / (2.0 * h);
+        assert!((difference - jacobian.fixed_view::<3, 1>(0, joint)).norm() < 1e-9);
+    }
+}
+
+#[test]
+fn body_jacobian_is_the_world_one_seen_from_the_frame() {
+    let (robot, q) = (DoublePendulum, SVector::from([0.7, -1.1]));
+    let back = robot.pose::<Tool0>(&q).rotation.transpose();
+    let (body, world) = (robot.jacobian::<Tool0>(&q), robot.world_jacobian::<Tool0>(&q));
+    for row in [0, 3] {
+        assert!((body.fixed_rows::<3>(row) - back * world.fixed_rows::<3>(row)).norm() < 1e-14);
+    }
+}
+
+#[test]
+fn poses_compose_and_invert() {
+    let a = DoublePendulum.pose::<Tool0>(&SVector::from([0.7, -1.1]));
+    let b = DoublePendulum.pose::<Tool0>(&SVector::from([-0.2, 2.0]));
+    let x = SVector::from([1.0, 2.0, 3.0]);
+    assert!(((a * b).transform_point(&x) - a.transform_point(&b.transform_point(&x))).norm() < 1e-14);
+    assert!((a.inverse().transform_point(&a.transform_point(&x)) - x).norm() < 1e-14);
+    assert_eq!(Pose::identity() * a, a);
+    assert!((a.transform_vector(&x) - a.rotation * x).norm() < 1e-14);
+}
