@@ -53,3 +53,108 @@ fn the_robojudge_is_read_as_written() {
     let limits = model.joints[1].limits;
     assert_eq!([limits.lower, limits.upper, limits.effort], [-std::f64::consts::FRAC_PI_2, 1.5, 100.0]);
 }
+
+/// The units and the samples of the parameters.
+fn units(text: &str) -> String {
+    let graph = Graph::new();
+    let model = model(&graph, text);
+    let describe =
+        |p: &model::Parameter| format!("{}: {} ({})", p.name, p.unit.as_deref().unwrap_or("?"), p.sample);
+    model.parameters.iter().map(describe).collect::<Vec<_>>().join(", ")
+}
+
+#[test]
+fn fields_get_their_units_from_their_uses() {
+    insta::assert_snapshot!(units(ROBOJUDGE), @"m1: kg (2.0451), m2: kg (1.0902), l1: m (0.7271), r0: m (0.5361), r1: m (0.3451), g: m/s² (9.7082), ix1: kg·m² (0.0498), iy1: kg·m² (0.0683), iz1: kg·m² (0.0569), ix2: kg·m² (0.0454), iy2: kg·m² (0.064), iz2: kg·m² (0.0525)");
+    let derived = r"
+        #[dynamics(gravity = [0, 0, -weight / load])]
+        #[joint(q: revolute(z), world -> a, at = [reach / 2, root * root + 0.1, stretch * reach], rpy = [0, turn + 1, 0])]
+        #[body(a, mass = load + 0.5, com = [reach, 0, 1cm * count], inertia = tensor(
+            load * (reach * reach + 2 * width * width) / 12, skew, 0, density * reach * reach * width * width, 0, 1.5))]
+        struct Crane { load: f32, reach: f32, root: f32, stretch: f32, turn: f32, count: f32, width: f32, density: f32,
+            skew: f32, weight: f32 }";
+    insta::assert_snapshot!(units(derived), @"load: kg (2.0451), reach: m (0.418), root: m^(1/2) (1.3541), stretch: 1 (0.4361), turn: 1 (0.2451), count: 1 (0.5541), width: m (0.4631), density: kg/m² (1.4443), skew: kg·m² (0.0021), weight: kg·m/s² (0.6803)");
+}
+
+#[test]
+fn the_type_of_the_fields_in_use_is_the_robots() {
+    let lines = "#[joint(q: revolute(z), world -> a)]";
+    let field_type = |body: &str, rest: &str| {
+        let graph = Graph::new();
+        model(&graph, &format!("{lines} #[body(a, solid = sphere({body}, 1))] {rest}")).field_type.to_string()
+    };
+    assert_eq!(field_type("1", "struct R;"), "any scalar");
+    assert_eq!(field_type("1", "struct R<T> { name: String, t: T }"), "T");
+    assert_eq!(field_type("m", "struct R<'a, T: Copy> { name: &'a str, m: (T) }"), "T");
+    assert_eq!(field_type("m", "struct R<M> { meta: M, m: f32, big: f64 }"), "f32");
+    assert_eq!(field_type("m", "struct R { m: f64 }"), "f64");
+    assert_eq!(field_type("r#type", "struct R { r#type: f64 }"), "f64");
+    assert_eq!(field_type("pi", "struct R { other: f64 }"), "any scalar");
+    assert_eq!(field_type("pi", "struct R { pi: f64 }"), "f64");
+}
+
+#[test]
+fn what_is_impossible_alone_may_be_sound_after_welding_or_allowed() {
+    let dummy = "#[joint(f: fixed, a -> b)] #[body(b, mass = 1e-6, inertia = diag(0, 0, 1e-9))]";
+    let sound = "#[joint(q: revolute(z), world -> a)] #[body(a, solid = sphere(1, 0.1))]";
+    let puma = "mass = 4.8, com = [0, 0, 0.07], inertia = diag(0.066, 0.0125, 0.086)";
+    let joint = "#[joint(q: revolute(z), world -> a)]";
+    let rod = "#[body(a, mass = 1, com = [0, 3, 0], inertia = diag(0.33333333, 0, 0.33333333))]";
+    for lines in [
+        format!("{sound} {dummy}"),
+        format!("{joint} #[body(a, {puma}, allow(nonphysical_inertia))]"),
+        format!("#[dynamics(allow(nonphysical_inertia))] {joint} #[body(a, {puma})]"),
+        format!("{joint} {rod}"),
+        format!("{joint} #[body(a, com = [0.3, sqrt(2), 1], solid = point(1))]"),
+        format!(
+            "#[joint(p: revolute([1, 2, 3]), world -> b)] #[body(b)] #[joint(q: prismatic(z), b -> a)] {rod}"
+        ),
+    ] {
+        model(&Graph::new(), &format!("{lines} struct R;"));
+    }
+}
+
+#[test]
+fn parts_of_macros_are_read_through_invisible_groups() {
+    use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
+    let group = |text: &str| TokenTree::from(Group::new(Delimiter::None, text.parse().unwrap()));
+    let (sum, vector, name) = (group("1 + 1"), group("[0, 0, -1]"), group("a"));
+    let tokens: TokenStream = quote::quote! {
+        #[joint(q: revolute(z), world -> #name, at = #vector)]
+        #[body(#name, solid = sphere(2 * #sum, 1))]
+        struct R;
+    };
+    let mut diags = Diagnostics::new();
+    let spec = spec::parse(&syn::parse2(tokens).unwrap(), &mut diags);
+    let graph = Graph::new();
+    let model = model::build(&spec, &graph, &mut diags);
+    assert_eq!(diags.into_text(), "");
+    let link = model.unwrap().tree.links[0];
+    assert_eq!(values(&graph, [link.inertia.mass, link.placement.translation.0[2]]), [4.0, -1.0]);
+}
+
+#[test]
+fn a_mistake_is_a_compile_error_with_help_and_code() {
+    let mut diags = Diagnostics::new();
+    let input = syn::parse_str("#[joint(q: revolute(z), world -> a, at = 3)] struct R;").unwrap();
+    let _ = spec::parse(&input, &mut diags);
+    let text = diags.into_compile_errors().to_string();
+    assert!(text.starts_with(":: core :: compile_error ! {"), "{text}");
+    assert!(text.contains(r"\n\n  = help: ") && text.contains(r"\n  = note: dynamics::Syntax"), "{text}");
+}
+
+#[test]
+fn a_thousand_joints_are_read_in_a_moment() {
+    let mut text = String::new();
+    for k in 0..1000 {
+        let parent = if k == 0 { "world".to_owned() } else { format!("b{}", k - 1) };
+        let line = format!(
+            "#[joint(q{k}: revolute, {parent} -> b{k}, dh(0.1, 90deg, 0.2, 0.{k}))]
+             #[body(b{k}, mass = 1.5, com = [0, 0.1, 0], inertia = tensor(0.2, 0.01, 0.02, 0.3, 0.03, 0.25))]"
+        );
+        text.push_str(&line);
+    }
+    let start = std::time::Instant::now();
+    assert_eq!(model(&Graph::new(), &(text + "struct Chain;")).tree.dof(), 1000);
+    assert!(start.elapsed().as_secs() < 5, "{:?}", start.elapsed());
+}

@@ -3,7 +3,7 @@
 use std::fmt;
 
 macro_rules! catalogue {
-    ($($(#[doc = $doc:literal])+ $name:ident => $help:literal,)+) => {
+    ($($(#[doc = $doc:literal])+ $name:ident => $help:expr,)+) => {
         /// A kind of mistake.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         pub enum Code {
@@ -41,7 +41,8 @@ macro_rules! catalogue {
 catalogue! {
     // Syntax
     /// Tokens that do not fit the grammar.
-    Syntax => "write the attribute as the documentation of `Dynamics` shows it",
+    Syntax => "write joints as `#[joint(q1: revolute(z), world -> a, at = [0, 0, 0.3])]`, \
+         and bodies as `#[body(a, mass = 1.5, com = [0, 0, 0.1], inertia = diag(0.1, 0.1, 0.2))]`",
     /// An expression or a group nested deeper than any robot needs.
     NestingTooDeep => "give the inner parts their own fields, or write the expression with fewer parentheses",
     /// A helper attribute on a field instead of the struct.
@@ -126,7 +127,7 @@ catalogue! {
     /// The mass is zero or negative.
     MassNotPositive => "give a mass in kilograms greater than zero, or leave out mass and inertia",
     /// A dimension of a solid is negative.
-    SizeNegative => "give a size greater than zero",
+    SizeNegative => "give a size in metres that is not negative",
     /// The tensor is not symmetric as written.
     InertiaNotSymmetric => "write the same expression in both places, or use `tensor(ixx, ixy, ixz, iyy, iyz, izz)`",
     /// The tensor looks like the first entries of a matrix by rows.

@@ -55,7 +55,7 @@ impl Diagnostic {
             Place::Text { file, line, column } => format!("{file}:{line}:{column}: "),
         };
         let Self { code, message, .. } = self;
-        format!("{place}{message}\n\n= help: {}\n= note: {code}", self.help_text())
+        format!("{place}{message}\n\n  = help: {}\n  = note: {code}", self.help_text())
     }
 }
 

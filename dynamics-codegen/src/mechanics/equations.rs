@@ -214,8 +214,8 @@ pub struct Equations<'g> {
     pub equations: Vec<Equation<'g>>,
 }
 
-/// The largest robot whose derivatives may be cheaper by the chain rule than by the composite recursion.
-const LARGEST_FOR_CHAIN_RULE: usize = 3;
+/// The largest robot for which the equations by matrices and the chain rule may be cheaper than recursions.
+const LARGEST_FOR_MATRICES: usize = 3;
 
 /// A robot about to be derived: its trees and its inputs.
 pub struct Derivation<'g> {
@@ -264,10 +264,41 @@ impl<'g> Derivation<'g> {
     /// What a method returns, derived in one or more ways of which the cheapest may be taken.
     pub fn alternatives(&self, method: Method) -> Vec<Vec<Block<'g>>> {
         let mut alternatives = vec![self.blocks(method)];
-        if method == Method::InverseDynamicsDerivatives && self.inputs.dof <= LARGEST_FOR_CHAIN_RULE {
-            alternatives.push(self.inverse_dynamics_derivatives_by_chain_rule());
+        if self.inputs.dof <= LARGEST_FOR_MATRICES {
+            alternatives.extend(self.blocks_by_matrices(method));
         }
         alternatives
+    }
+
+    /// The same by `M`, `C`, `G` and the chain rule, where that is another way.
+    fn blocks_by_matrices(&self, method: Method) -> Option<Vec<Block<'g>>> {
+        Some(match method {
+            Method::BiasForces => vec![vector("h", self.bias_by_matrices())],
+            Method::InverseDynamics => {
+                let inertial = times(&self.mass_matrix(), &self.a);
+                let bias = self.bias_by_matrices();
+                vec![vector("tau", inertial.into_iter().zip(bias).map(|(ma, h)| ma + h).collect())]
+            }
+            Method::ForwardDynamics => vec![vector("a", self.acceleration(self.bias_by_matrices()).0)],
+            Method::KineticEnergy => vec![scalar(self.kinetic_energy_by_matrices())],
+            Method::Lagrangian => {
+                let potential = energy::potential_energy(&self.dynamic, &self.q);
+                vec![scalar(self.kinetic_energy_by_matrices() - potential)]
+            }
+            Method::InverseDynamicsDerivatives => self.inverse_dynamics_derivatives_by_chain_rule(),
+            _ => return None,
+        })
+    }
+
+    fn bias_by_matrices(&self) -> Vec<Expr<'g>> {
+        let coriolis = times(&composite::coriolis_matrix(&self.dynamic, &self.q, &self.v), &self.v);
+        coriolis.into_iter().zip(self.gravity_forces()).map(|(cv, g)| cv + g).collect()
+    }
+
+    fn kinetic_energy_by_matrices(&self) -> Expr<'g> {
+        let momenta = times(&self.mass_matrix(), &self.v);
+        let twice = momenta.into_iter().zip(&self.v).fold(Expr::ZERO, |sum, (p, &v)| sum + p * v);
+        Expr::from(Number::ratio(1, 2)) * twice
     }
 
     /// What a method returns.
@@ -329,10 +360,14 @@ impl<'g> Derivation<'g> {
     }
 
     fn forward_dynamics(&self) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
+        self.acceleration(self.bias_forces())
+    }
+
+    /// `a = M⁻¹ (τ − h)`, and the factors of M.
+    fn acceleration(&self, bias: Vec<Expr<'g>>) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
         let parents = self.dynamic.links.iter().map(|link| link.parent).collect();
         let factor = Factor::of(&self.mass_matrix(), parents);
-        let driving: Vec<Expr<'g>> =
-            self.tau.iter().zip(self.bias_forces()).map(|(&tau, h)| tau - h).collect();
+        let driving: Vec<Expr<'g>> = self.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
         (factor.solve(&driving), factor)
     }
 
@@ -359,6 +394,10 @@ impl<'g> Derivation<'g> {
         let rows = frames::jacobian(&self.kinematic, &self.kinematic.frames[frame], &self.q, axes);
         Block { name: "j", shape: Shape::Matrix(6, self.inputs.dof), entries: rows.concat() }
     }
+}
+
+fn times<'g>(m: &Square<Expr<'g>>, x: &[Expr<'g>]) -> Vec<Expr<'g>> {
+    m.iter().map(|row| row.iter().zip(x).fold(Expr::ZERO, |sum, (&m, &x)| sum + m * x)).collect()
 }
 
 fn scalar(value: Expr<'_>) -> Block<'_> {

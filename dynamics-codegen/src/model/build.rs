@@ -34,7 +34,7 @@ pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) ->
     let joints = joint_infos(spec, &values, diags);
     let parameters = parameters(&values, &units, &slots);
     let tree = tree.filter(|_| diags.len() == before)?;
-    physics::check_links(spec, &topology, &tree, diags);
+    physics::check_links(spec, &topology, graph, &tree, diags);
     let model = Model { name: spec.ident.to_string(), field_type: field_type?, parameters, joints, tree };
     (diags.len() == before).then_some(model)
 }
@@ -86,15 +86,9 @@ impl<'g> Assembly<'_, 'g> {
 
     /// The mass of the body that each joint carries, in its own frame.
     fn masses(&self, diags: &mut Diagnostics) -> Vec<Option<PseudoInertia<Expr<'g>>>> {
-        let mut masses = vec![None; self.spec.joints.len()];
-        for body in &self.spec.bodies {
-            let mass = diags.keep(pseudo_inertia(body, self.spec, self.values));
-            let carrier = self.spec.joints.iter().position(|joint| joint.child.text == body.name.text);
-            if let Some(carrier) = carrier {
-                masses[carrier] = mass;
-            }
-        }
-        masses
+        let mut mass =
+            |body: usize| diags.keep(pseudo_inertia(&self.spec.bodies[body], self.spec, self.values));
+        self.topology.body.iter().map(|body| body.and_then(&mut mass)).collect()
     }
 
     /// The place of the body that each joint carries, and the links without their masses.
@@ -124,9 +118,8 @@ impl<'g> Assembly<'_, 'g> {
 
     fn frames(&self, sites: &[Site<'g>]) -> Vec<Frame<Expr<'g>>> {
         let mut frames: Vec<(usize, Frame<_>)> = vec![];
-        for (joint, site) in self.spec.joints.iter().zip(sites) {
-            let body = self.spec.bodies.iter().find(|body| body.name.text == joint.child.text);
-            let line = body.map_or(joint.line, |body| body.line);
+        for ((joint, site), body) in self.spec.joints.iter().zip(sites).zip(&self.topology.body) {
+            let line = body.map_or(joint.line, |body| self.spec.bodies[body].line);
             frames.push((line, Frame { name: joint.child.text.clone(), link: site.link, pose: site.pose }));
         }
         frames.sort_by_key(|(line, _)| *line);

@@ -105,7 +105,15 @@ impl<'a> Units<'a> {
         let unit = slot.quantity.unit();
         let message = format!("{} needs {unit}, and {}", slot.name(), self.text(slot.formula, &found));
         let mismatch = Diagnostic::new(Code::UnitMismatch, &slot.formula.place, message);
-        diags.push(self.explained(mismatch, &[slot.formula]));
+        diags.push(match slot.formula.kind {
+            FormulaKind::Number(..) => {
+                mismatch.help(format!("write the number in {unit}, or without a unit"))
+            }
+            FormulaKind::Name(_) => {
+                self.explained(mismatch.help("use a field of its own here"), &[slot.formula])
+            }
+            _ => self.explained(mismatch, &[slot.formula]),
+        });
     }
 
     /// The unit of a formula. Equations within it are solved on the way.
@@ -227,7 +235,7 @@ impl<'a> Units<'a> {
             Some(format!("`{name}` is {unit} as {origin}"))
         });
         let reasons = reasons.take(4).collect::<Vec<_>>().join(", ");
-        let general = diagnostic.code.help();
+        let general = diagnostic.help_text().to_owned();
         if reasons.is_empty() { diagnostic } else { diagnostic.help(format!("{general}; {reasons}")) }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::quantities::{Quantity, Slot};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::spec::{BodySpec, JointKind, JointSpec, Name, PlacementKind, RobotSpec};
+use crate::spec::{BodySpec, JointKind, JointSpec, Name, PlacementKind, RobotSpec, plain};
 use crate::symbolic::Number;
 
 /// The methods that `outputs(…)` may name.
@@ -157,17 +157,12 @@ fn check_angle(slot: &Slot, diags: &mut Diagnostics) {
     };
     if angle.abs().cmp_value(Number::integer(2 * turns) * Number::PI).is_gt() {
         let message = format!(
-            "{} is {angle} rad, {:.1} turns",
+            "{} is {} rad, {:.1} turns",
             slot.name(),
+            plain(angle),
             angle.abs().to_f64() / std::f64::consts::TAU
         );
         let help = format!("angles are in radians: write `{}deg`, or `{0}rad` if it is meant", plain(angle));
         diags.push(Diagnostic::new(Code::AngleLooksLikeDegrees, &slot.formula.place, message).help(help));
     }
-}
-
-/// A number as one would write it.
-fn plain(value: Number) -> String {
-    let text = value.to_string();
-    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }

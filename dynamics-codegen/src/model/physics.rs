@@ -6,8 +6,8 @@ use super::values::Values;
 use super::{Link, Motion, Tree};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 use crate::spatial::{PseudoInertia, Symmetric3};
-use crate::spec::{BodySpec, Formula, InertiaKind, JointSpec, Name, RobotSpec, Shape};
-use crate::symbolic::{Expr, Number};
+use crate::spec::{BodySpec, Formula, InertiaKind, JointKind, JointSpec, Name, RobotSpec, Shape, plain};
+use crate::symbolic::{Expr, Graph, Number, Op};
 
 /// Checks the numbers of each body and joint by themselves.
 pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) {
@@ -16,7 +16,7 @@ pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagn
         if let Some((formula, mass)) = mass.and_then(|mass| Some((mass, constant(values, mass)?)))
             && mass.signum() <= 0
         {
-            let message = format!("the mass of `{}` is {mass} kg", body.name);
+            let message = format!("the mass of `{}` is {} kg", body.name, plain(mass));
             diags.error(Code::MassNotPositive, &formula.place, message);
         }
         check_sizes(body, values, diags);
@@ -41,7 +41,7 @@ fn check_sizes(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
     };
     for size in sizes {
         if let Some(value) = constant(values, size).filter(|value| value.is_negative()) {
-            let message = format!("a size of `{}` is {value} m", body.name);
+            let message = format!("a size of `{}` is {} m", body.name, plain(value));
             diags.error(Code::SizeNegative, &size.place, message);
         }
     }
@@ -58,8 +58,10 @@ fn check_tensor(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
                 && ixy == iyy
                 && !ixy.is_zero()
             {
-                let message =
-                    format!("ixy and iyy of `{name}` are both {ixy} kg·m², as in a matrix read by rows");
+                let message = format!(
+                    "ixy and iyy of `{name}` are both {} kg·m², as in a matrix read by rows",
+                    plain(ixy)
+                );
                 diags.error(Code::InertiaOrder, &parts[1].place.to(&parts[3].place), message);
             }
         }
@@ -89,26 +91,36 @@ fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
         && let (Some(low), Some(high)) = (constant(values, lower), constant(values, upper))
         && !low.cmp_value(high).is_lt()
     {
-        let message = format!("the limits of `{name}` leave no room: from {low} to {high}");
+        let message = format!("the limits of `{name}` leave no room: from {} to {}", plain(low), plain(high));
         diags.error(Code::LimitsInverted, &lower.place.to(&upper.place), message);
     }
     for (key, limit) in [("velocity", &joint.velocity), ("effort", &joint.effort)] {
         if let Some(limit) = limit
             && let Some(value) = constant(values, limit).filter(|value| value.is_negative())
         {
-            diags.error(Code::LimitNegative, &limit.place, format!("the {key} limit of `{name}` is {value}"));
+            diags.error(
+                Code::LimitNegative,
+                &limit.place,
+                format!("the {key} limit of `{name}` is {}", plain(value)),
+            );
         }
     }
 }
 
 /// Checks what moves: each link with all that is welded to it.
-pub(super) fn check_links(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr>, diags: &mut Diagnostics) {
-    let finite = finite(tree);
-    if !finite {
+pub(super) fn check_links(
+    spec: &RobotSpec,
+    topology: &Topology,
+    graph: &Graph,
+    tree: &Tree<Expr>,
+    diags: &mut Diagnostics,
+) {
+    if !finite(tree, graph) {
         let message = "the numbers of the robot are too large to compute with";
         diags.error(Code::NumberOutOfRange, &Place::of(&spec.ident), message);
         return;
     }
+    let moving: Vec<_> = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).collect();
     let mut heavy = vec![false; tree.links.len()];
     for (k, link) in tree.links.iter().enumerate().rev() {
         let beyond = heavy[k];
@@ -116,38 +128,41 @@ pub(super) fn check_links(spec: &RobotSpec, topology: &Topology, tree: &Tree<Exp
         if let Some(parent) = link.parent.filter(|_| heavy[k]) {
             heavy[parent] = true;
         }
-        let Some(joint) = joint_of(spec, topology, k) else { continue };
-        check_moved(joint, link, heavy[k], beyond, diags);
+        if let Some(joint) = moving.get(k) {
+            check_moved(joint, link, heavy[k], beyond, diags);
+        }
     }
     let all_allowed = allows(spec.options.allow.as_deref());
-    let links = topology.links();
-    for (k, link) in tree.links.iter().enumerate().filter(|_| !all_allowed) {
-        let on_link = |body: &&BodySpec| {
-            let carrier = spec.joints.iter().position(|joint| joint.child.text == body.name.text);
-            carrier.is_some_and(|carrier| links[carrier] == Some(k))
-        };
-        let bodies: Vec<_> = spec.bodies.iter().filter(on_link).collect();
+    for (bodies, link) in bodies_of_links(spec, topology).iter().zip(&tree.links).filter(|_| !all_allowed) {
         if !bodies.iter().any(|body| allows(body.allow.as_deref())) {
-            check_inertia(&bodies, link.inertia, diags);
+            check_inertia(bodies, link.inertia, diags);
         }
     }
 }
 
-fn finite(tree: &Tree<Expr>) -> bool {
-    let mut finite = true;
+/// The bodies that are welded together on each link.
+fn bodies_of_links<'s>(spec: &'s RobotSpec, topology: &Topology) -> Vec<Vec<&'s BodySpec>> {
+    let mut bodies = vec![vec![]; spec.joints.len()];
+    for (link, body) in topology.links().into_iter().zip(&topology.body) {
+        if let (Some(link), Some(body)) = (link, body) {
+            bodies[link].push(&spec.bodies[*body]);
+        }
+    }
+    bodies
+}
+
+/// Whether all constants are numbers, also those within expressions.
+fn finite(tree: &Tree<Expr>, graph: &Graph) -> bool {
+    let is_number = |value: Number| value.is_finite() && value.to_f64().is_finite();
+    let mut finite = graph.ops().iter().all(|op| match *op {
+        Op::Constant(k) | Op::Scale(k, _) => is_number(graph.number(k)),
+        _ => true,
+    });
     let _ = tree.map(|entry| {
-        finite &= entry.as_number().is_none_or(|value| value.is_finite() && value.to_f64().is_finite());
+        finite &= entry.as_number().is_none_or(is_number);
         0.0
     });
     finite
-}
-
-fn joint_of<'s>(spec: &'s RobotSpec, topology: &Topology, link: usize) -> Option<&'s JointSpec> {
-    topology
-        .coordinate
-        .iter()
-        .position(|coordinate| *coordinate == Some(link))
-        .map(|joint| &spec.joints[joint])
 }
 
 /// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are.
@@ -177,7 +192,9 @@ fn allows(names: Option<&[Name]>) -> bool {
 /// `∫r rᵀ dm` about the centre of mass is positive semidefinite, if it is known.
 fn check_inertia(bodies: &[&BodySpec], inertia: PseudoInertia<Expr>, diags: &mut Diagnostics) {
     let Some([low, middle, high]) = second_moments(inertia) else { return };
-    if low >= -1e-6 * high.abs().max(middle.abs()) {
+    // Rods and laminas are on the boundary; of a point mass nothing is left but the rounding of constants.
+    let rounding = 1e-20 * inertia.second.full().trace().as_number().map_or(0.0, Number::to_f64);
+    if low >= -1e-6 * high.abs().max(middle.abs()) - rounding {
         return;
     }
     let Some(body) = bodies.iter().find(|body| body.mass.is_some()).or(bodies.first()) else { return };
@@ -231,9 +248,9 @@ fn eigenvalues(mut m: [[f64; 3]; 3]) -> [f64; 3] {
             for row in &mut m {
                 (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
             }
-            for k in 0..3 {
-                (m[p][k], m[q][k]) = (c * m[p][k] - s * m[q][k], s * m[p][k] + c * m[q][k]);
-            }
+            let (first, second) = (m[p], m[q]);
+            m[p] = std::array::from_fn(|k| c * first[k] - s * second[k]);
+            m[q] = std::array::from_fn(|k| s * first[k] + c * second[k]);
         }
     }
     let mut values = [m[0][0], m[1][1], m[2][2]];

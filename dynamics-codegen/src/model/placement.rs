@@ -46,6 +46,13 @@ impl<'g> Geometry<'g> {
             }
         };
         let Self { link, body } = geometry;
+        for pose in [link, body] {
+            let finite = |entry: &Expr| entry.as_number().is_none_or(Number::is_finite);
+            if !pose.rotation.0.as_flattened().iter().chain(&pose.translation.0).all(finite) {
+                let message = format!("the placement of the joint `{}` is out of range", joint.name);
+                return Err(Diagnostic::new(Code::NumberOutOfRange, &joint.place, message));
+            }
+        }
         Ok(Self { link: snapped_pose(link, snap), body: snapped_pose(body, snap) })
     }
 

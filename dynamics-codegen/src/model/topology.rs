@@ -18,6 +18,8 @@ pub(super) struct Topology {
     pub(super) order: Vec<usize>,
     /// The joint that carries the parent of each joint; `None` is the world.
     pub(super) carrier: Vec<Option<usize>>,
+    /// The described body that each joint carries.
+    pub(super) body: Vec<Option<usize>>,
     /// The coordinate of each joint that moves.
     pub(super) coordinate: Vec<Option<usize>>,
 }
@@ -66,7 +68,10 @@ impl Topology {
                 count - 1
             })
         });
-        Self { order, coordinate: coordinate.collect(), carrier }
+        let described: FxHashMap<_, _> =
+            spec.bodies.iter().enumerate().map(|(i, body)| (&*body.name.text, i)).collect();
+        let body = spec.joints.iter().map(|joint| described.get(&*joint.child.text).copied());
+        Self { order, coordinate: coordinate.collect(), carrier, body: body.collect() }
     }
 
     /// The coordinate of the nearest joint from here to the world that moves, this one included.

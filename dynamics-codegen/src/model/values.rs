@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::quantities::Slot;
-use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::spatial::Vector3;
 use crate::spec::{Factor, Field, Formula, FormulaKind, Function, Name, RobotSpec, Unit};
 use crate::symbolic::{Expr, Graph, Number, SymbolId};
@@ -83,9 +83,7 @@ impl<'s, 'g> Values<'s, 'g> {
             FormulaKind::Call(function, argument) => self.call(*function, argument)?,
         };
         match value.as_number() {
-            Some(number) if !number.is_finite() || !number.to_f64().is_finite() => {
-                Err(out_of_range(&formula.place))
-            }
+            Some(number) if !number.is_finite() || !number.to_f64().is_finite() => Err(out_of_range(formula)),
             _ => Ok(value),
         }
     }
@@ -105,9 +103,10 @@ impl<'s, 'g> Values<'s, 'g> {
             product = match divides {
                 false => product * value,
                 true if value.is_zero() => {
-                    return Err(Diagnostic::new(Code::DivisionByZero, &formula.place, "the divisor is zero"));
+                    let message = format!("the divisor `{}` is zero", formula.short_text());
+                    return Err(Diagnostic::new(Code::DivisionByZero, &formula.place, message));
                 }
-                true => product.checked_div(value).ok_or_else(|| out_of_range(&formula.place))?,
+                true => product.checked_div(value).ok_or_else(|| out_of_range(formula))?,
             };
         }
         Ok(product)
@@ -119,11 +118,8 @@ impl<'s, 'g> Values<'s, 'g> {
             Function::Sin => Ok(value.sin()),
             Function::Cos => Ok(value.cos()),
             Function::Sqrt => value.sqrt().ok_or_else(|| {
-                Diagnostic::new(
-                    Code::RootOfNegative,
-                    &argument.place,
-                    format!("the root of {value:?} is no number"),
-                )
+                let message = format!("the root of `{}` is no number", argument.short_text());
+                Diagnostic::new(Code::RootOfNegative, &argument.place, message)
             }),
         }
     }
@@ -171,8 +167,9 @@ fn in_si(value: Number, unit: Option<Unit>) -> Number {
     value * if pi { scale * Number::PI } else { scale }
 }
 
-fn out_of_range(place: &Place) -> Diagnostic {
-    Diagnostic::new(Code::NumberOutOfRange, place, "the value is out of range")
+fn out_of_range(formula: &Formula) -> Diagnostic {
+    let message = format!("the value of `{}` is out of range", formula.short_text());
+    Diagnostic::new(Code::NumberOutOfRange, &formula.place, message)
 }
 
 fn field_where_number_is_needed(slot: &Slot, name: &Name) -> Diagnostic {

@@ -1,6 +1,8 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
-use super::{Companion, Cost, Program, share};
+use super::parameters::Normaliser;
+use super::share::share;
+use super::{Companion, Cost, Operand, Program, Source};
 use crate::mechanics::equations::{Block, Derivation, Equation, Equations, Method};
 use crate::model::Model;
 use crate::symbolic::{Expr, Graph, Number};
@@ -38,7 +40,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let companion = Companion::of(graph, &equations);
     let preparation = companion.program(graph, &equations);
     let program = |equation: &Equation<'g>| {
-        Program::of(graph, equations.inputs, &entries(&equation.blocks), |node| companion.field(node))
+        Program::of(graph, equations.inputs, &entries(&equation.blocks), |node| companion.read(node))
     };
     let programs = equations.equations.iter().map(program).collect();
     Compiled { graph, preparation, programs, companion, equations }
@@ -62,10 +64,14 @@ fn best_unit(model: &Model<'_>, graph: &Graph) -> Number {
 /// The cheapest way to compute a method's result, simplified.
 fn cheapest<'g>(graph: &'g Graph, derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
     let simplified = derivation.alternatives(method).into_iter().flat_map(|blocks| {
-        let shared = share(graph, &entries(&blocks), |node| graph.is_parameter_only(node));
-        [with_entries(&blocks, shared), blocks]
+        let mut normaliser = Normaliser::new(graph);
+        let plain: Vec<Expr<'g>> =
+            entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
+        let shared = share(graph, &plain, |node| graph.is_parameter_only(node));
+        [with_entries(&blocks, shared), with_entries(&blocks, plain)]
     });
-    let is_free = |node| graph.is_parameter_only(node).then_some(0);
+    let at_hand = Operand { source: Source::Field(0), negative: false };
+    let is_free = |node| graph.is_parameter_only(node).then_some(at_hand);
     let cost = |blocks: &Vec<Block<'g>>| {
         arithmetic(Program::of(graph, derivation.inputs, &entries(blocks), is_free).cost())
     };

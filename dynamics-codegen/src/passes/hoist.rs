@@ -2,7 +2,9 @@
 
 use rustc_hash::FxHashMap;
 
-use super::program::Program;
+use super::parameters::{Normaliser, reads_negative};
+use super::program::{Operand, Program, Source};
+use super::share::share;
 use crate::mechanics::equations::Equations;
 use crate::symbolic::{Expr, Graph, NodeId, Op};
 
@@ -10,46 +12,70 @@ use crate::symbolic::{Expr, Graph, NodeId, Op};
 pub struct Companion<'g> {
     /// The value of each field.
     pub fields: Vec<Expr<'g>>,
-    index: FxHashMap<NodeId, usize>,
+    /// What each hoisted node is read as.
+    reads: FxHashMap<NodeId, Operand>,
 }
 
 impl<'g> Companion<'g> {
     /// Finds what the equations need of parameter-only work.
     pub fn of(graph: &'g Graph, equations: &Equations<'g>) -> Self {
-        let mut companion = Self { fields: Vec::new(), index: FxHashMap::default() };
-        let mut seen = vec![false; graph.len()];
-        for block in equations.equations.iter().flat_map(|equation| &equation.blocks) {
-            for &entry in &block.entries {
-                companion.collect(graph, entry, &mut seen);
-            }
+        let mut companion = Self { fields: Vec::new(), reads: FxHashMap::default() };
+        let mut normaliser = Normaliser::new(graph);
+        for id in hoisted_nodes(graph, equations) {
+            let value = normaliser.normalise(Expr::of_node(graph, id));
+            let operand = companion.operand(graph, value);
+            companion.reads.insert(id, operand);
         }
         companion
     }
 
-    /// The field that holds a node, if it is hoisted.
-    pub fn field(&self, node: NodeId) -> Option<usize> {
-        self.index.get(&node).copied()
+    /// What a node is read as, if it is hoisted.
+    pub fn read(&self, node: NodeId) -> Option<Operand> {
+        self.reads.get(&node).copied()
     }
 
     /// How the fields are computed from the parameters.
     pub fn program(&self, graph: &'g Graph, equations: &Equations<'g>) -> Program {
-        Program::of(graph, equations.inputs, &self.fields, |_| None)
+        let shared = share(graph, &self.fields, |_| false);
+        Program::of(graph, equations.inputs, &shared, |_| None)
     }
 
-    fn collect(&mut self, graph: &'g Graph, root: Expr<'g>, seen: &mut [bool]) {
-        let Expr::Node { id, .. } = root else { return };
-        let mut stack = vec![id];
-        while let Some(id) = stack.pop() {
-            if std::mem::replace(&mut seen[id.index()], true) {
-                continue;
-            }
-            if graph.is_parameter_only(id) {
-                self.index.insert(id, self.fields.len());
-                self.fields.push(Expr::of_node(graph, id));
-            } else {
-                let needed = |x: &NodeId| !matches!(graph.op(*x), Op::Constant(_));
-                stack.extend(graph.op(id).operands().into_iter().flatten().filter(needed));
+    /// A field for the value, or for its negative if that reads better.
+    fn operand(&mut self, graph: &'g Graph, value: Expr<'g>) -> Operand {
+        if let Expr::Constant(value) = value {
+            return Operand { source: Source::Constant(value.abs()), negative: value.is_negative() };
+        }
+        let negative = reads_negative(graph, value);
+        let value = if negative { -value } else { value };
+        let known = self.fields.iter().position(|field| *field == value);
+        let field = known.unwrap_or_else(|| {
+            self.fields.push(value);
+            self.fields.len() - 1
+        });
+        Operand { source: Source::Field(field), negative }
+    }
+}
+
+/// The outermost parameter-only nodes, in the order in which the equations read them.
+fn hoisted_nodes(graph: &Graph, equations: &Equations<'_>) -> Vec<NodeId> {
+    let mut seen = vec![false; graph.len()];
+    let mut found = Vec::new();
+    for block in equations.equations.iter().flat_map(|equation| &equation.blocks) {
+        for entry in &block.entries {
+            let Expr::Node { id, .. } = *entry else { continue };
+            let mut stack = vec![id];
+            while let Some(id) = stack.pop() {
+                if std::mem::replace(&mut seen[id.index()], true) {
+                    continue;
+                }
+                if graph.is_parameter_only(id) {
+                    found.push(id);
+                } else {
+                    let needed = |x: &NodeId| !matches!(graph.op(*x), Op::Constant(_));
+                    stack.extend(graph.op(id).operands().into_iter().flatten().filter(needed));
+                }
             }
         }
     }
+    found
 }

@@ -2,6 +2,7 @@
 
 mod compile;
 mod hoist;
+mod parameters;
 mod program;
 mod share;
 mod signs;
@@ -10,5 +11,4 @@ mod verify;
 pub use compile::{Compiled, compile, entries, methods};
 pub use hoist::Companion;
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
-pub use share::share;
 pub use verify::{Disagreement, disagreements};

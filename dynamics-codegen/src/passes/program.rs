@@ -98,12 +98,12 @@ pub struct Program {
 }
 
 impl Program {
-    /// The program that computes `results`; `field` says which nodes are at hand already.
+    /// The program that computes `results`; `field` says which nodes are at hand already, and as what.
     pub fn of<'g>(
         graph: &'g Graph,
         inputs: Inputs,
         results: &[Expr<'g>],
-        field: impl Fn(NodeId) -> Option<usize>,
+        field: impl Fn(NodeId) -> Option<Operand>,
     ) -> Self {
         let live = Live::of(graph, results, &field);
         let mut builder = Builder {
@@ -120,8 +120,8 @@ impl Program {
         }
         let results = results.iter().map(|&result| builder.result(result)).collect();
         let mut program = Self { steps: builder.steps, results };
-        signs::settle(&mut program);
         program.count_uses();
+        signs::settle(&mut program);
         program
     }
 
@@ -199,7 +199,7 @@ struct Live {
 }
 
 impl Live {
-    fn of(graph: &Graph, results: &[Expr<'_>], field: &impl Fn(NodeId) -> Option<usize>) -> Self {
+    fn of(graph: &Graph, results: &[Expr<'_>], field: &impl Fn(NodeId) -> Option<Operand>) -> Self {
         let mut uses: FxHashMap<NodeId, usize> = FxHashMap::default();
         let mut order = Vec::new();
         let mut stack = Vec::new();
@@ -236,16 +236,16 @@ struct Builder<'g, 'l, F> {
     inputs: Inputs,
     live: &'l Live,
     field: F,
-    made: FxHashMap<NodeId, Source>,
+    made: FxHashMap<NodeId, Operand>,
     /// The step that turns an angle into its sine and cosine.
     sines: FxHashMap<NodeId, usize>,
     steps: Vec<Step>,
 }
 
-impl<F: Fn(NodeId) -> Option<usize>> Builder<'_, '_, F> {
+impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
     fn node(&mut self, id: NodeId) {
-        if let Some(field) = (self.field)(id) {
-            self.made.insert(id, Source::Field(field));
+        if let Some(at_hand) = (self.field)(id) {
+            self.made.insert(id, at_hand);
             return;
         }
         let source = match self.graph.op(id) {
@@ -274,7 +274,7 @@ impl<F: Fn(NodeId) -> Option<usize>> Builder<'_, '_, F> {
             Op::Sin(a) => Source::Sin(self.sin_cos(a)),
             Op::Cos(a) => Source::Cos(self.sin_cos(a)),
         };
-        self.made.insert(id, source);
+        self.made.insert(id, Operand { source, negative: false });
     }
 
     fn push(&mut self, operation: Operation) -> Source {
@@ -294,8 +294,7 @@ impl<F: Fn(NodeId) -> Option<usize>> Builder<'_, '_, F> {
     }
 
     fn operand(&self, id: NodeId) -> Operand {
-        let source = *self.made.get(&id).expect("a node is made before it is read");
-        Operand { source, negative: false }
+        *self.made.get(&id).expect("a node is made before it is read")
     }
 
     fn result(&self, result: Expr<'_>) -> Operand {
@@ -303,7 +302,10 @@ impl<F: Fn(NodeId) -> Option<usize>> Builder<'_, '_, F> {
             Expr::Constant(value) => {
                 Operand { source: Source::Constant(value.abs()), negative: value.is_negative() }
             }
-            Expr::Node { id, negative, .. } => Operand { negative, ..self.operand(id) },
+            Expr::Node { id, negative, .. } => {
+                let value = self.operand(id);
+                Operand { negative: negative != value.negative, ..value }
+            }
         }
     }
 
@@ -329,7 +331,7 @@ impl<F: Fn(NodeId) -> Option<usize>> Builder<'_, '_, F> {
         };
         if self.can_fuse(chosen.1) && !self.made.contains_key(&chosen.1) {
             let source = self.product(chosen.1);
-            self.made.insert(chosen.1, source);
+            self.made.insert(chosen.1, Operand { source, negative: false });
         }
         Some(chosen)
     }

@@ -22,7 +22,11 @@ const LARGEST_SEARCH: usize = 5_000;
 const ROUNDS: usize = 60;
 
 /// Equal expressions with fewer operations; `is_leaf` are the nodes that cost nothing.
-pub fn share<'g>(graph: &'g Graph, results: &[Expr<'g>], is_leaf: impl Fn(NodeId) -> bool) -> Vec<Expr<'g>> {
+pub(super) fn share<'g>(
+    graph: &'g Graph,
+    results: &[Expr<'g>],
+    is_leaf: impl Fn(NodeId) -> bool,
+) -> Vec<Expr<'g>> {
     let mut flat = Flattened::of(graph, results, &is_leaf);
     flat.merge_single_uses();
     if flat.definitions.number_of_terms() <= LARGEST_SEARCH {

@@ -1,7 +1,7 @@
 //! Minus signs, moved to where they cost nothing and read best.
 //!
 //! A step may store its value or the negative of it. Forwards, a leading minus goes on to the readers; back
-//! again, a difference whose readers all want its negative is turned round.
+//! again, a step that every reader negates is turned round where its operands allow that for nothing.
 
 use super::program::{Operand, Operation, Program, Source};
 
@@ -9,8 +9,7 @@ use super::program::{Operand, Operation, Program, Source};
 pub(super) fn settle(program: &mut Program) {
     let flips = leading_minus(program);
     apply(program, &flips);
-    let flips = wanted_negative(program);
-    apply(program, &flips);
+    turn_unwanted(program);
 }
 
 /// Whether each step, its operands' flips taken into account, has a minus in front.
@@ -28,25 +27,6 @@ fn leading_minus(program: &Program) -> Vec<bool> {
     flips
 }
 
-/// Steps that can be turned round for nothing, and whose every reader negates them.
-fn wanted_negative(program: &Program) -> Vec<bool> {
-    let mut wishes = vec![(0_usize, 0_usize); program.steps.len()];
-    let operands = program.steps.iter().flat_map(|step| step.operation.operands());
-    for operand in operands.chain(program.results.iter().copied()) {
-        if let Source::Step(k) = operand.source {
-            let (plus, minus) = &mut wishes[k];
-            *(if operand.negative { minus } else { plus }) += 1;
-        }
-    }
-    let turns_freely = |operation: Operation| match operation {
-        Operation::Add(a, b) => a.negative != b.negative,
-        Operation::MulAdd(a, b, c) => (a.negative != b.negative) != c.negative,
-        _ => false,
-    };
-    let steps = program.steps.iter().zip(wishes);
-    steps.map(|(step, (plus, minus))| plus == 0 && minus > 0 && turns_freely(step.operation)).collect()
-}
-
 fn flipped(flips: &[bool], source: Source) -> bool {
     matches!(source, Source::Step(k) if flips[k])
 }
@@ -57,33 +37,125 @@ fn apply(program: &mut Program, flips: &[bool]) {
         negative: operand.negative != flipped(flips, operand.source),
         ..operand
     };
-    let turned = |operand: Operand, turn: bool| Operand { negative: operand.negative != turn, ..operand };
     for (step, &turn) in program.steps.iter_mut().zip(flips) {
-        step.operation = match step.operation {
-            Operation::Add(a, b) => Operation::Add(turned(settled(a), turn), turned(settled(b), turn)),
-            Operation::Mul(a, b) => {
-                let (a, b) = product(settled(a), settled(b), turn);
-                Operation::Mul(a, b)
-            }
-            Operation::Div(a, b) => {
-                let (a, b) = product(settled(a), settled(b), turn);
-                Operation::Div(a, b)
-            }
-            Operation::MulAdd(a, b, c) => {
-                let (a, b) = product(settled(a), settled(b), turn);
-                Operation::MulAdd(a, b, turned(settled(c), turn))
-            }
-            Operation::Sqrt(a) => Operation::Sqrt(settled(a)),
-            Operation::SinCos(a) => Operation::SinCos(settled(a)),
-        };
+        step.operation = turned(mapped(step.operation, settled), turn);
     }
     for result in &mut program.results {
         *result = settled(*result);
     }
 }
 
-/// A product with at most one minus, in front.
-fn product(a: Operand, b: Operand, turn: bool) -> (Operand, Operand) {
-    let negative = (a.negative != b.negative) != turn;
-    (Operand { negative, ..a }, Operand { negative: false, ..b })
+/// From the last step to the first: a step that is only read negated is turned round, if it can be.
+fn turn_unwanted(program: &mut Program) {
+    let mut readings = vec![(0_usize, 0_usize); program.steps.len()];
+    let note = |readings: &mut Vec<(usize, usize)>, operand: Operand| {
+        if let Source::Step(k) = operand.source {
+            let (plus, minus) = &mut readings[k];
+            *(if operand.negative { minus } else { plus }) += 1;
+        }
+    };
+    for &result in &program.results {
+        note(&mut readings, result);
+    }
+    let mut flips = vec![false; program.steps.len()];
+    for k in (0..program.steps.len()).rev() {
+        let operation = program.steps[k].operation;
+        let (plus, minus) = readings[k];
+        if plus == 0 && minus > 0 {
+            if let Some(other) = turned_round(program, operation, &readings) {
+                flips[k] = true;
+                program.steps[k].operation = other;
+            }
+        }
+        for operand in program.steps[k].operation.operands() {
+            note(&mut readings, operand);
+        }
+    }
+    let settled = |operand: Operand| Operand {
+        negative: operand.negative != flipped(&flips, operand.source),
+        ..operand
+    };
+    for step in &mut program.steps {
+        step.operation = mapped(step.operation, settled);
+    }
+    for result in &mut program.results {
+        *result = settled(*result);
+    }
+    for step in &mut program.steps {
+        step.operation = turned(step.operation, false);
+    }
+}
+
+/// The negative of an operation, if that takes no further minus.
+fn turned_round(program: &Program, operation: Operation, readings: &[(usize, usize)]) -> Option<Operation> {
+    match operation {
+        Operation::Add(a, b) if a.negative != b.negative => Some(turned(operation, true)),
+        Operation::MulAdd(a, b, c) if (a.negative != b.negative) != c.negative => {
+            Some(turned(operation, true))
+        }
+        Operation::Mul(a, b) | Operation::Div(a, b) => {
+            let can_turn = |operand: Operand| can_turn(program, operand, readings);
+            match operation {
+                _ if a.negative != b.negative => Some(turned(operation, true)),
+                Operation::Mul(a, b) if can_turn(b) && !can_turn(a) => Some(Operation::Mul(negated(b), a)),
+                _ if can_turn(a) => Some(turned(operation, true)),
+                _ => None,
+            }
+        }
+        _ => None,
+    }
+}
+
+/// Whether an operand that nobody has read yet can be turned round in its own step.
+fn can_turn(program: &Program, operand: Operand, readings: &[(usize, usize)]) -> bool {
+    let Source::Step(k) = operand.source else { return false };
+    let step = program.steps[k];
+    let read_elsewhere = readings[k] != (0, 0) || step.uses > 1;
+    !read_elsewhere
+        && match step.operation {
+            Operation::Add(a, b) => a.negative != b.negative,
+            Operation::MulAdd(a, b, c) => (a.negative != b.negative) != c.negative,
+            Operation::Mul(a, b) => can_turn(program, a, readings) || can_turn(program, b, readings),
+            _ => false,
+        }
+}
+
+fn negated(operand: Operand) -> Operand {
+    Operand { negative: !operand.negative, ..operand }
+}
+
+fn mapped(operation: Operation, f: impl Fn(Operand) -> Operand) -> Operation {
+    match operation {
+        Operation::Add(a, b) => Operation::Add(f(a), f(b)),
+        Operation::Mul(a, b) => Operation::Mul(f(a), f(b)),
+        Operation::MulAdd(a, b, c) => Operation::MulAdd(f(a), f(b), f(c)),
+        Operation::Div(a, b) => Operation::Div(f(a), f(b)),
+        Operation::Sqrt(a) => Operation::Sqrt(f(a)),
+        Operation::SinCos(a) => Operation::SinCos(f(a)),
+    }
+}
+
+/// The operation, negated if `turn`; a product has at most one minus, in front.
+fn turned(operation: Operation, turn: bool) -> Operation {
+    let sign = |operand: Operand| Operand { negative: operand.negative != turn, ..operand };
+    let product = |a: Operand, b: Operand| {
+        let negative = (a.negative != b.negative) != turn;
+        (Operand { negative, ..a }, Operand { negative: false, ..b })
+    };
+    match operation {
+        Operation::Add(a, b) => Operation::Add(sign(a), sign(b)),
+        Operation::Mul(a, b) => {
+            let (a, b) = product(a, b);
+            Operation::Mul(a, b)
+        }
+        Operation::Div(a, b) => {
+            let (a, b) = product(a, b);
+            Operation::Div(a, b)
+        }
+        Operation::MulAdd(a, b, c) => {
+            let (a, b) = product(a, b);
+            Operation::MulAdd(a, b, sign(c))
+        }
+        Operation::Sqrt(_) | Operation::SinCos(_) => operation,
+    }
 }

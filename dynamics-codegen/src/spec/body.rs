@@ -92,12 +92,9 @@ impl BodySpec {
         diags: &mut Diagnostics,
     ) -> Option<Self> {
         let mut items = input.items().into_iter();
-        let missing = || {
-            Diagnostic::new(Code::Syntax, &place, "the body has no name")
-                .help("write `#[body(name, mass = …, …)]`")
-        };
+        let missing = || Diagnostic::new(Code::Syntax, &place, "the body has no name");
         let name = items.next().ok_or_else(missing).and_then(|item| values::name(item, "the body's name"));
-        let name = diags.keep(name);
+        let name = diags.keep(name.map_err(|mistake| mistake.help("write `#[body(name, mass = …, …)]`")));
         let mut body = Self {
             name: name.clone().unwrap_or_else(|| Name { text: String::new(), place: place.clone() }),
             mass: None,
@@ -111,7 +108,7 @@ impl BodySpec {
             place: place.clone(),
         };
         for item in items {
-            if let Some(entry) = diags.keep(Entry::parse(item, KEYS)) {
+            if let Some(entry) = diags.keep(Entry::parse(item, "key of a body", KEYS)) {
                 body.read(entry, diags);
             }
         }
@@ -139,7 +136,7 @@ fn inertia(entry: Entry) -> Result<InertiaSpec> {
         let kind = InertiaKind::Matrix(Box::new(matrix(rows, &inner)?));
         return Ok(InertiaSpec { kind, place });
     }
-    let form = Entry::parse(value, &["diag", "tensor"])?;
+    let form = Entry::parse(value, "form of an inertia", &["diag", "tensor"])?;
     let kind = match form.key.text.as_str() {
         "diag" => InertiaKind::Diagonal(Box::new(form.arguments(["ixx", "iyy", "izz"])?)),
         _ => InertiaKind::Tensor(Box::new(form.arguments(["ixx", "ixy", "ixz", "iyy", "iyz", "izz"])?)),
@@ -160,7 +157,7 @@ const SHAPES: &[&str] = &["cuboid", "cylinder", "sphere", "rod", "point"];
 fn solid(entry: Entry) -> Result<Solid> {
     let value = entry.assigned()?;
     let place = value.place();
-    let mut form = Entry::parse(value, SHAPES)?;
+    let mut form = Entry::parse(value, "solid", SHAPES)?;
     let (contents, inner) = form.parenthesised()?;
     let mut items = contents.items();
     let shape_name = form.key.text.as_str();

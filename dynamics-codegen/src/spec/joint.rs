@@ -121,7 +121,7 @@ impl JointSpec {
         let (head, edge) = (diags.keep(head.map_err(form)), diags.keep(edge.map_err(form)).flatten());
         let mut options = Options::default();
         for item in items {
-            if let Some(entry) = diags.keep(Entry::parse(item, KEYS)) {
+            if let Some(entry) = diags.keep(Entry::parse(item, "key of a joint", KEYS)) {
                 options.read(entry, diags);
             }
         }
@@ -215,7 +215,13 @@ impl JointKind {
         found.map(|(_, kind)| *kind).ok_or_else(|| {
             let message = format!("there is no kind of joint `{name}`");
             let known = Self::ALL.iter().map(|(known, _)| *known);
-            Diagnostic::new(Code::JointKindUnknown, &name.place, message).suggest(&name.text, known)
+            let unknown = Diagnostic::new(Code::JointKindUnknown, &name.place, message);
+            match name.text.as_str() {
+                "ball" | "spherical" | "free" | "floating" | "planar" | "universal" | "cylindrical"
+                | "helical" => unknown
+                    .help("use a chain of revolute and prismatic joints; a body between two needs no mass"),
+                _ => unknown.suggest(&name.text, known),
+            }
         })
     }
 }

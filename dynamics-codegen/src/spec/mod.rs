@@ -16,6 +16,7 @@ pub use cursor::nested_deeper_than;
 pub use formula::{Factor, Formula, FormulaKind, Function, Term};
 pub use joint::{Axis, AxisKind, JointKind, JointSpec, Placement, PlacementKind};
 pub use options::Options;
+pub use text::plain;
 pub use unit::Unit;
 
 use std::fmt;

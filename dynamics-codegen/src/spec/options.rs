@@ -35,7 +35,7 @@ impl Options {
 
     pub(super) fn read(&mut self, input: Cursor, diags: &mut Diagnostics) {
         for item in input.items() {
-            let Some(entry) = diags.keep(Entry::parse(item, KEYS)) else { continue };
+            let Some(entry) = diags.keep(Entry::parse(item, "option", KEYS)) else { continue };
             let key = entry.key.clone();
             match key.text.as_str() {
                 "gravity" => fill(&mut self.gravity, &key, entry.vector(["x", "y", "z"]), diags),

@@ -3,13 +3,15 @@
 use std::fmt::{self, Write};
 
 use super::{Formula, FormulaKind, Function};
+use crate::symbolic::Number;
 
 impl fmt::Display for Formula {
     /// As written, but for spaces.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match &self.kind {
-            FormulaKind::Number(value, None) => write!(f, "{value}"),
-            FormulaKind::Number(value, Some(unit)) => write!(f, "{value}{}", unit.name),
+            FormulaKind::Number(value, unit) => {
+                write!(f, "{}{}", plain(*value), unit.map_or("", |unit| unit.name))
+            }
             FormulaKind::Name(name) => write!(f, "{name}"),
             FormulaKind::Negative(inner) => write!(f, "-{}", Operand(inner)),
             FormulaKind::Sum(terms) => {
@@ -37,6 +39,12 @@ impl fmt::Display for Formula {
             FormulaKind::Call(function, argument) => write!(f, "{}({argument})", function.name()),
         }
     }
+}
+
+/// A number as one would write it: without a fraction that is zero.
+pub fn plain(value: Number) -> String {
+    let text = value.to_string();
+    text.strip_suffix(".0").map(str::to_owned).unwrap_or(text)
 }
 
 /// A part of a larger formula: sums are in parentheses, and what else needs them.

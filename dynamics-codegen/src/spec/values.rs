@@ -14,13 +14,13 @@ pub(super) struct Entry {
 }
 
 impl Entry {
-    /// Reads the key, which must be one of the `known` ones.
-    pub(super) fn parse(mut item: Cursor, known: &[&str]) -> Result<Self> {
+    /// Reads the key, which must be one of the `known` ones; `what` says what they are.
+    pub(super) fn parse(mut item: Cursor, what: &str, known: &[&str]) -> Result<Self> {
         let place = item.place();
-        let Some(key) = item.ident() else { return Err(item.expected("a key")) };
+        let Some(key) = item.ident() else { return Err(item.expected(&format!("a {what}"))) };
         let key = Name::new(&key);
         if !known.contains(&key.text.as_str()) {
-            let message = format!("there is no key `{key}` here");
+            let message = format!("there is no {what} `{key}`");
             let list = format!("use one of {}", known.join(", "));
             let unknown = Diagnostic::new(Code::KeyUnknown, &key.place, message).help(list);
             return Err(unknown.suggest(&key.text, known.iter().copied()));

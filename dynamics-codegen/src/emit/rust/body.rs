@@ -141,13 +141,18 @@ impl<'a> Writer<'a> {
         let text = self.operation(operation);
         let wanted = self.result_names[step].take();
         let short = text.text.len() <= INLINE_WIDTH && text.depth < INLINE_DEPTH;
-        if wanted.is_none() && self.program.steps[step].uses == 1 && short {
-            self.values.push((text, None));
-            return;
-        }
+        let read_once = self.program.steps[step].uses == 1;
         let name = match wanted {
-            Some(name) => self.names.fresh(&name),
-            None => self.numbered_name(),
+            Some(name) if !name.is_empty() => self.names.fresh(&name),
+            Some(_) if read_once => {
+                self.values.push((text, None));
+                return;
+            }
+            None if read_once && short => {
+                self.values.push((text, None));
+                return;
+            }
+            _ => self.numbered_name(),
         };
         let statement = self.declare(vec![name.clone()], text);
         self.values.push((atom(name, vec![statement]), None));
@@ -269,12 +274,12 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// The names of all entries of a method's result: `m00`, `tau3`.
+/// The names of all entries of a method's result: `m00`, `tau3`; none for a number that is returned as it is.
 pub(super) fn entry_names(blocks: &[Block<'_>], dof: usize) -> Vec<String> {
     let name = |block: &Block<'_>, k: usize| {
         let letter = letter(block.name);
         match block.shape {
-            Shape::Scalar => letter.to_owned(),
+            Shape::Scalar => String::new(),
             Shape::Vector(_) => entry(letter, k, None, dof),
             Shape::Matrix(_, columns) => entry(letter, k / columns, Some(k % columns), dof),
         }

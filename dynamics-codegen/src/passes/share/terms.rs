@@ -37,11 +37,6 @@ impl Coefficient {
     pub(super) fn magnitude(self) -> Self {
         Self(self.0.abs())
     }
-
-    /// One with the sign of the coefficient.
-    pub(super) fn sign(self) -> Self {
-        Self(self.0.signum())
-    }
 }
 
 impl std::ops::Neg for Coefficient {

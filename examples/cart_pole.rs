@@ -1,0 +1,54 @@
+//! A cart-pole, linearised at the upright pose: A and B, and a feedback that balances it.
+//!
+//! `cargo run --example cart_pole`
+
+use dynamics_core::prelude::*;
+
+/// A cart of 1 kg that slides along x, and on it a rod of 0.1 kg and 1 m, upright at zero.
+///
+/// A unit struct: every number is in the description, and is folded into the code.
+#[derive(Dynamics)]
+#[joint(slider: prismatic(x), world -> cart, limits = [-2, 2])]
+#[body(cart, solid = cuboid(1, [300mm, 200mm, 100mm]))]
+#[joint(hinge: revolute(y), cart -> pole)]
+#[body(pole, com = [0, 0, 0.5], solid = cylinder(0.1, 5mm, 1))]
+struct CartPole;
+
+/// The force on the cart `u = -K x` that puts all poles of the linear model between -2 and -3.5 1/s.
+const POLES: [f64; 4] = [-2.0, -2.5, -3.0, -3.5];
+
+fn main() -> Result<(), Error> {
+    // x = (slider, hinge, their speeds); the two inputs are the force on the cart and the torque at the hinge.
+    let (upright, rest) = (SVector::from([0.0, 0.0]), SVector::zeros());
+    let Linearization { a, b, drift } = CartPole.linearize(&upright, &rest, &SVector::zeros());
+    println!("About the upright pose, x' = A x + B u, with\nA ={a:.4}B ={b:.4}");
+    println!("The drift there is {:.1e}: an equilibrium.", f64::max(drift.max(), -drift.min()));
+    let slope = a[(3, 1)];
+    println!("Left alone it falls as exp({:.3} t).\n", slope.sqrt());
+
+    let gain = place_poles(&a, &b.column(0).into_owned(), POLES);
+    println!("Gains for poles at {POLES:?} 1/s: {:.3?}", gain.data.0[0]);
+
+    // The whole nonlinear robot under that feedback, from 0.3 rad.
+    let start = State::rest(SVector::from([0.0, 0.3]));
+    let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(|_, state| {
+        let x = SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
+        SVector::from([-gain.dot(&x), 0.0])
+    });
+    println!("  time, s    cart, m   pole, rad");
+    for _ in 0..8 {
+        let sample = simulation.steps(1000).last().expect("a thousand steps have a last")?;
+        println!("{:9.1} {:10.5} {:11.6}", sample.time, sample.state.q[0], sample.state.q[1]);
+    }
+    Ok(())
+}
+
+/// Ackermann's formula, `K = [0 0 0 1]·[b Ab A²b A³b]⁻¹·Π(A − pᵢ)`.
+fn place_poles(a: &SMatrix<f64, 4, 4>, b: &SVector<f64, 4>, poles: [f64; 4]) -> SVector<f64, 4> {
+    let (ab, aab) = (a * b, a * a * b);
+    let controllability = SMatrix::from_columns(&[*b, ab, aab, a * aab]);
+    let inverse = controllability.try_inverse().expect("a cart-pole is controllable");
+    let identity = SMatrix::<f64, 4, 4>::identity();
+    let polynomial = poles.iter().fold(identity, |product, pole| product * (a - identity * *pole));
+    (inverse * polynomial).row(3).transpose()
+}

@@ -1,0 +1,104 @@
+//! The robojudge of the lecture EECS C106A, discussion 9: its M and V, then the box that it tosses.
+//!
+//! `cargo run --example robojudge`
+
+use dynamics_core::prelude::*;
+
+/// A column that turns, and an arm that pitches on top of it: problem 5.
+#[derive(Dynamics)]
+#[dynamics(gravity = [0, 0, -g])]
+#[joint(theta1: revolute(z), world -> column)]
+#[body(column, mass = m1, com = [0, 0, r0], inertia = diag(ix1, iy1, iz1))]
+#[joint(theta2: revolute(-x), column -> arm, at = [0, 0, l1])]
+#[body(arm, mass = m2, com = [0, r1, 0], inertia = diag(ix2, iy2, iz2))]
+#[rustfmt::skip]
+struct RoboJudge {
+    m1: f64, m2: f64, l1: f64, r0: f64, r1: f64, g: f64,
+    ix1: f64, iy1: f64, iz1: f64, ix2: f64, iy2: f64, iz2: f64,
+}
+
+/// A box in the air, problem 4: up by z, its spin by three turns. What is between two joints has no mass.
+#[derive(Dynamics)]
+#[joint(height: prismatic(z), world -> air)]
+#[body(air)]
+#[joint(roll: revolute(x), air -> rolled)]
+#[body(rolled)]
+#[joint(pitch: revolute(y), rolled -> pitched)]
+#[body(pitched)]
+#[joint(yaw: revolute(z), pitched -> cargo)]
+#[body(cargo, solid = cuboid(m, [l, w, h]))]
+struct TossedBox {
+    m: f64,
+    l: f64,
+    w: f64,
+    h: f64,
+}
+
+#[rustfmt::skip]
+const JUDGE: RoboJudge = RoboJudge {
+    m1: 4.0, m2: 1.5, l1: 0.9, r0: 0.4, r1: 0.3, g: 9.81,
+    ix1: 0.30, iy1: 0.30, iz1: 0.05, ix2: 0.06, iy2: 0.01, iz2: 0.055,
+};
+
+fn main() -> Result<(), Error> {
+    judge();
+    toss()
+}
+
+/// `M` and `V` beside the lecture's formulas.
+fn judge() {
+    let RoboJudge { m1, m2, l1, r0, r1, g, iz1, ix2, iy2, iz2, .. } = JUDGE;
+    let q = SVector::from([0.4, 0.7]);
+    let (s2, c2) = f64::sin_cos(q[1]);
+
+    // The handout prints m2 r1 cos²(theta2), which is no inertia: the units want r1².
+    let m11 = iz1 + iy2 * s2 * s2 + iz2 * c2 * c2 + m2 * r1 * r1 * c2 * c2;
+    let m22 = ix2 + m2 * r1 * r1;
+    let v = g * (m1 * r0 + m2 * (l1 - r1 * s2));
+
+    let m = JUDGE.mass_matrix(&q);
+    println!("The robojudge at theta = (0.4, 0.7) rad, and the lecture's formulas:");
+    row("M11", m[(0, 0)], m11);
+    row("M12", m[(0, 1)], 0.0);
+    row("M22", m[(1, 1)], m22);
+    row("V", JUDGE.potential_energy(&q), v);
+    println!(
+        "{} takes {} and, once for all, {}.\n",
+        "M(q)",
+        RoboJudge::COST.mass_matrix,
+        RoboJudge::COST.prepare
+    );
+}
+
+/// The Lagrangian of the box as it leaves the hand, then its flight.
+fn toss() -> Result<(), Error> {
+    let parcel = TossedBox { m: 0.4, l: 0.3, w: 0.2, h: 0.1 };
+    let TossedBox { m, l, w, h } = parcel;
+    let (r, vz, [x, y, z]) = (1.2, 3.0, [1.0, 0.5, 2.0]);
+    let (q, v) = (SVector::from([r, 0.0, 0.0, 0.0]), SVector::from([vz, x, y, z]));
+
+    let spin = x * x * (w * w + h * h) + y * y * (l * l + h * h) + z * z * (l * l + w * w);
+    let lagrangian = m / 24.0 * spin + vz * vz * m / 2.0 - m * 9.81 * r;
+    println!("The box at the moment of the toss:");
+    row("L", parcel.lagrangian(&q, &v), lagrangian);
+
+    // In flight its momenta change by gravity only; the angular one is in world axes the same all the way.
+    let mut simulation = Simulation::new(&parcel, State::new(q, v), 1e-3)?;
+    let momentum = |state: &State<f64, 4, 4>| {
+        let spin = parcel.velocity::<Cargo>(&state.q, &state.v);
+        let body = [(w * w + h * h), (l * l + h * h), (l * l + w * w)].map(|square| m / 12.0 * square);
+        let body = SVector::from([body[0] * spin[3], body[1] * spin[4], body[2] * spin[5]]);
+        parcel.pose::<Cargo>(&state.q).transform_vector(&body)
+    };
+    println!("  time, s   height, m   angular momentum in the world, g m^2/s");
+    for _ in 0..6 {
+        let sample = simulation.steps(100).last().expect("a hundred steps have a last")?;
+        let [x, y, z] = (momentum(&sample.state) * 1e3).data.0[0];
+        println!("{:9.1} {:11.4}   {x:9.6} {y:9.6} {z:9.6}", sample.time, sample.state.q[0]);
+    }
+    Ok(())
+}
+
+fn row(what: &str, derived: f64, lecture: f64) {
+    println!("  {what:4} {derived:12.8}   {lecture:12.8}");
+}
