@@ -21,7 +21,7 @@ fn main() -> Result<(), Error> {
     // x = (slider, hinge, their speeds); the two inputs are the force on the cart and the torque at the hinge.
     let (upright, rest) = (SVector::from([0.0, 0.0]), SVector::zeros());
     let Linearization { a, b, drift } = CartPole.linearize(&upright, &rest, &SVector::zeros());
-    println!("About the upright pose, x' = A x + B u, with\nA ={a:.4}B ={b:.4}");
+    println!("About the upright pose, x' = A x + B u, with\nA ={:.4}B ={b:.4}", a.map(|entry| entry + 0.0));
     println!("The drift there is {:.1e}: an equilibrium.", f64::max(drift.max(), -drift.min()));
     let slope = a[(3, 1)];
     println!("Left alone it falls as exp({:.3} t).\n", slope.sqrt());
@@ -46,7 +46,7 @@ fn main() -> Result<(), Error> {
 /// Ackermann's formula, `K = [0 0 0 1]·[b Ab A²b A³b]⁻¹·Π(A − pᵢ)`.
 fn place_poles(a: &SMatrix<f64, 4, 4>, b: &SVector<f64, 4>, poles: [f64; 4]) -> SVector<f64, 4> {
     let (ab, aab) = (a * b, a * a * b);
-    let controllability = SMatrix::from_columns(&[*b, ab, aab, a * aab]);
+    let controllability = SMatrix::<f64, 4, 4>::from_columns(&[*b, ab, aab, a * aab]);
     let inverse = controllability.try_inverse().expect("a cart-pole is controllable");
     let identity = SMatrix::<f64, 4, 4>::identity();
     let polynomial = poles.iter().fold(identity, |product, pole| product * (a - identity * *pole));

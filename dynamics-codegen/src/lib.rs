@@ -18,15 +18,24 @@ pub mod spatial;
 pub mod spec;
 pub mod symbolic;
 
-use diagnostics::Diagnostics;
-use proc_macro2::TokenStream;
+use diagnostics::{Code, Diagnostics};
+use proc_macro2::{Span, TokenStream};
 use symbolic::Graph;
+
+/// The deepest nesting of groups that is read at all: what reads tokens recurses.
+const NESTING_LIMIT: usize = 128;
 
 /// Expands `#[derive(Dynamics)]`.
 ///
 /// Wrong input becomes `compile_error!`s at the user's tokens and a stub of every impl, so that one mistake in
 /// a robot is reported once and not again at every use of the robot.
 pub fn derive(input: TokenStream) -> TokenStream {
+    if spec::nested_deeper_than(&input, NESTING_LIMIT) {
+        let mut diags = Diagnostics::new();
+        let message = format!("groups are nested more than {NESTING_LIMIT} deep");
+        diags.error(Code::NestingTooDeep, &Span::call_site().into(), message);
+        return diags.into_compile_errors();
+    }
     let input: syn::DeriveInput = match syn::parse2(input) {
         Ok(input) => input,
         Err(error) => return error.into_compile_error(),
@@ -59,13 +68,31 @@ pub fn generate(input: &syn::DeriveInput) -> Result<String, Diagnostics> {
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
-    let methods = passes::methods(outputs.as_deref(), model.tree.frames.len());
+    let methods = passes::methods(outputs.as_deref(), &model);
     let compiled = passes::compile(&model, &graph, &methods); // derived, simplified, scheduled
+    check_constants(&spec, &compiled, &mut diags);
+    diags.check()?;
     check_against_plain_recursion(&spec, &model, &compiled, &mut diags);
     diags.check()?;
 
     let item = emit::rust::Item::of(&spec, &model);
     Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+}
+
+/// Numbers that are sound one by one can have products beyond the range of doubles.
+fn check_constants(spec: &spec::RobotSpec, compiled: &passes::Compiled<'_>, diags: &mut Diagnostics) {
+    let out_of_range = |operand: passes::Operand| match operand.source {
+        passes::Source::Constant(value) => !(value.is_finite() && value.to_f64().is_finite()),
+        _ => false,
+    };
+    let operands = |program: &passes::Program| {
+        let of_steps = program.steps.iter().flat_map(|step| step.operation.operands());
+        of_steps.chain(program.results.iter().copied()).any(out_of_range)
+    };
+    if compiled.programs().any(operands) {
+        let message = format!("the numbers of `{}` are too large: their products overflow", spec.ident);
+        diags.error(Code::NumberOutOfRange, &spec.ident.span().into(), message);
+    }
 }
 
 /// The expansion checks itself: a program that computes something else is a mistake of the compiler.
@@ -79,6 +106,6 @@ fn check_against_plain_recursion(
         let method = found.method.name();
         let message =
             format!("the generated `{method}` is off by {:.1e} from the plain recursion", found.error);
-        diags.error(diagnostics::Code::SelfCheckFailed, &spec.ident.span().into(), message);
+        diags.error(Code::SelfCheckFailed, &spec.ident.span().into(), message);
     }
 }

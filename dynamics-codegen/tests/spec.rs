@@ -115,6 +115,36 @@ fn what_is_impossible_alone_may_be_sound_after_welding_or_allowed() {
 }
 
 #[test]
+fn a_body_without_mass_moves_what_it_carries() {
+    let chain = |first: &str| {
+        format!(
+            "#[joint(p: revolute(z), world -> a)] #[body(a, {first})]
+             #[joint(q: revolute(x), a -> b)] #[body(b, com = [0, 1, 0], solid = sphere(1, 0.1))] struct R;"
+        )
+    };
+    let graph = Graph::new();
+    for massless in ["mass = 0", "mass = 0, inertia = diag(0, 0, 0)", "com = [1, 0, 0], mass = -0kg"] {
+        let inertia = model(&graph, &chain(massless)).tree.links[0].inertia;
+        assert_eq!(inertia, dynamics_codegen::spatial::PseudoInertia::zero(), "{massless}");
+    }
+    // The first link of the PUMA 560, as it is published.
+    let puma = chain("mass = 0, inertia = diag(0, 0, 0.35), allow(nonphysical_inertia)");
+    let link = model(&graph, &puma).tree.links[0];
+    assert_eq!(values(&graph, [link.inertia.mass, link.inertia.rotational().zz]), [0.0, 0.35]);
+    let alone = "#[joint(q: revolute(z), world -> a)]
+        #[body(a, mass = 0, inertia = diag(0, 0, 0.35), allow(nonphysical_inertia))] struct R;";
+    assert_eq!(model(&graph, alone).tree.dof(), 1);
+}
+
+#[test]
+fn a_massless_inertia_is_judged_with_what_it_is_welded_to() {
+    let text = "#[joint(q: revolute(z), world -> a)] #[body(a, mass = 0, inertia = diag(0, 0, 0.01))]
+        #[joint(f: fixed, a -> b)] #[body(b, solid = sphere(2, 0.3))] struct R;";
+    let graph = Graph::new();
+    assert_eq!(model(&graph, text).tree.dof(), 1);
+}
+
+#[test]
 fn parts_of_macros_are_read_through_invisible_groups() {
     use proc_macro2::{Delimiter, Group, TokenStream, TokenTree};
     let group = |text: &str| TokenTree::from(Group::new(Delimiter::None, text.parse().unwrap()));

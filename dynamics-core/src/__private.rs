@@ -13,7 +13,7 @@ pub use crate::linearize::{Linearization, StateSpaceModel};
 pub use crate::mechanism::{Cost, Costs, JointLimits, Mechanism};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
-pub use solve::solve_columns;
+pub use solve::{factor, forward_from_inverse, solve_columns};
 
 /// `(sin x, cos x)`.
 #[inline(always)]

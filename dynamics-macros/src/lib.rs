@@ -2,7 +2,195 @@
 
 use proc_macro::TokenStream;
 
-/// Equations of motion from a robot on a struct.
+/// Equations of motion from a robot that is written on a struct.
+///
+/// ```
+/// use dynamics_core::prelude::*;
+///
+/// /// A pendulum on a cart that slides along x.
+/// #[derive(Dynamics)]
+/// #[joint(slider: prismatic(x), world -> cart)]
+/// #[body(cart, solid = point(m_cart))]
+/// #[joint(hinge: revolute(y), cart -> pole, limits = [-90deg, 90deg])]
+/// #[body(pole, mass = m, com = [0, 0, l / 2], inertia = diag(m * l*l / 12, m * l*l / 12, 0))]
+/// #[joint(tip_joint: fixed, pole -> tip, at = [0, 0, l])]
+/// struct CartPole<T> {
+///     m_cart: T,
+///     m: T,
+///     l: T,
+/// }
+///
+/// let robot = CartPole { m_cart: 1.0, m: 0.1, l: 1.0 };
+/// let q = SVector::from([0.0, 0.3]);
+/// assert_eq!(robot.mass_matrix(&q)[(0, 0)], 1.1);
+/// assert!((robot.pose::<Tip>(&q).translation[2] - f64::cos(0.3)).abs() < 1e-15);
+/// assert_eq!(CartPole::<f64>::JOINT_NAMES, ["slider", "hinge"]);
+/// ```
+///
+/// The attributes stand **after** the derive: before it, rustc rejects them (`legacy_derive_helpers`). Their order
+/// among each other is free, but for two things: coordinates are numbered in the order of the moving joints, each
+/// joint behind the one that carries it, and bodies are listed in the order of their lines.
+///
+/// # The struct
+///
+/// | | the equations are implemented for |
+/// |---|---|
+/// | `struct Robot<T> { … }` | every `T: Scalar`; other bounds of `T` are kept |
+/// | fields of type `f64`, or of type `f32` | that type |
+/// | `struct Robot;` | every scalar; the type of `q` decides |
+///
+/// A number in an attribute is folded into the code; the name of a field there makes it a parameter, given at run
+/// time. All fields that are named must have the same type; others may have any.
+///
+/// # Values
+///
+/// Wherever a number may stand:
+///
+/// ```text
+/// value   = term (("+" | "-") term)*
+/// term    = factor (("*" | "/") factor)*
+/// factor  = "-" factor | "(" value ")" | ("sin" | "cos" | "sqrt") "(" value ")" | field | "pi" | number
+/// number  = a decimal literal of Rust, directly followed by a unit or by nothing
+/// unit    = m cm mm um km  kg g t  s ms  rad deg  N Nm
+/// vector  = "[" value "," value "," value "]"
+/// axis    = "x" | "y" | "z" | "-x" | "-y" | "-z" | vector of numbers, of any length but zero
+/// ```
+///
+/// Everything is in SI units and radians. Values are exact while the compiler works with them (`0.1` is a tenth,
+/// `90deg` is π/2) and are rounded once, in the generated code.
+///
+/// **Values have units.** A literal with a suffix has its unit; one without takes that of its place if it is a whole
+/// value or a summand, and none if it is a factor or divisor. The unit of a field is inferred from its uses. What does
+/// not fit is an error: `inertia = diag(m * r, …)` needs a second `r`. An angle of more than a full turn (a limit of
+/// more than three) must say `deg` or `rad`.
+///
+/// # `#[joint(name: kind(axis), parent -> child, …)]`
+///
+/// The joint carries `child`, which turns or slides on `parent`: the `world` or a body that another joint carries. Every
+/// body is carried by one joint.
+///
+/// | kind | coordinate |
+/// |---|---|
+/// | `revolute(axis)` | the angle about the axis, rad |
+/// | `continuous(axis)` | the same, without limits |
+/// | `prismatic(axis)` | the distance along the axis, m |
+/// | `fixed` | none: `child` is welded to `parent`, and needs no `#[body]` if it is a mere frame |
+///
+/// Where it is, at zero. Without any of these keys it is at the parent's frame:
+///
+/// | key | the child's frame in the parent's | default |
+/// |---|---|---|
+/// | `at = [x, y, z]` | its origin | zero |
+/// | `rpy = [roll, pitch, yaw]` | its axes: `Rz(yaw)·Ry(pitch)·Rx(roll)`, as in a URDF | parallel |
+/// | `dh(a, alpha, d, theta)` | `Rz(θ)·Tz(d)·Tx(a)·Rx(α)`, standard Denavit–Hartenberg | |
+/// | `mdh(a, alpha, d, theta)` | `Rx(α)·Tx(a)·Rz(θ)·Tz(d)`, modified (Khalil, Craig) | |
+/// | `screw(axis, through = [x, y, z])` | a line in the parent's frame at zero; `at` and `rpy` may place the frame | |
+///
+/// The axis of a joint is in the child's frame, and is constant. `dh`, `mdh` and `screw` define it themselves: then the
+/// kind has none, as in `revolute`. With `dh` and `mdh` the coordinate is added to `theta` (`d`, if prismatic); with `dh`
+/// the child's frame is the distal one, behind `a` and `alpha`.
+///
+/// What it is allowed, for `Mechanism::LIMITS`; numbers only, infinite without the key:
+///
+/// | key | |
+/// |---|---|
+/// | `limits = [lower, upper]` | rad or m; not for `continuous` |
+/// | `velocity = v` | rad/s or m/s |
+/// | `effort = f` | N·m or N |
+///
+/// # `#[body(name, …)]`
+///
+/// In the frame of the joint that carries it. Without any key the body has no mass, which is fine between joints.
+///
+/// | key | | default |
+/// |---|---|---|
+/// | `mass = m` | kg, with `inertia` | none |
+/// | `com = [x, y, z]` | the centre of mass, m | the origin |
+/// | `inertia = …` | about the **centre of mass**, kg·m²: `diag(ixx, iyy, izz)`, `tensor(ixx, ixy, ixz, iyy, iyz, izz)` or `[[…], […], […]]` | |
+/// | `inertia_rpy = [r, p, y]` | turns the axes of `inertia` or `solid` | the body's |
+/// | `solid = …` | instead of mass and inertia, a homogeneous solid with its centre at `com` | |
+/// | `allow(nonphysical_inertia)` | takes an inertia that no distribution of mass has | an error |
+///
+/// Products of inertia are entries of the tensor, `ixy = −∫xy dm`. The solids:
+///
+/// | | |
+/// |---|---|
+/// | `cuboid(m, [x, y, z])` | the lengths of its edges |
+/// | `cylinder(m, radius, length, axis)` | `axis` is `x`, `y` or `z`, the default |
+/// | `sphere(m, radius)` | |
+/// | `rod(m, length, axis)` | without thickness; `axis` as above |
+/// | `point(m)` | |
+///
+/// # `#[dynamics(…)]`
+///
+/// | key | | default |
+/// |---|---|---|
+/// | `gravity = [x, y, z]` | the acceleration of free fall in the world, m/s² | `[0, 0, -9.81]` |
+/// | `outputs(mass_matrix, …)` | the methods to emit, by their names; `pose`, `jacobian` and `world_jacobian` of all frames | all |
+/// | `allow(nonphysical_inertia)` | for all bodies | |
+/// | `snap = on`, `off` | whether entries of rotations within 1e-11 of 0 and ±1 become these | `on` |
+/// | `crate = "path"` | where the crate `dynamics-core` is found | `"::dynamics_core"` |
+///
+/// # What is generated
+///
+/// For the robot, and again for its companion:
+///
+/// - `Mechanism`: sizes, names, limits, operation counts;
+/// - `Dynamics` and `DynamicsDerivatives`: the equations, as straight-line code;
+/// - `Configuration` and `StateSpaceModel`: for simulation and linearisation;
+/// - `Frame`, on a type for each body and each bare frame: `tool0` is `Tool0`, in the module `robot_frames` of a `Robot`
+///   and re-exported beside it. A name that would hide a common type gets `Frame` behind it: `BoxFrame`.
+///
+/// `prepare()` does all work that depends on parameters alone and returns the companion, `RobotPrepared`. The methods of
+/// the robot itself prepare in each call, so in a loop use the companion. A robot without parameters is its own.
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// A rod on a hinge, in single precision.
+/// #[derive(Dynamics)]
+/// #[dynamics(gravity = [0, -9.81, 0])]
+/// #[joint(hinge: revolute(z), world -> rod, limits = [-45deg, 45deg], effort = 12)]
+/// #[body(rod, com = [length / 2, 0, 0], solid = rod(250g, length, x))]
+/// struct Lever {
+///     length: f32,
+/// }
+///
+/// let prepared = Lever { length: 0.8 }.prepare();
+/// for k in 0..8 {
+///     let q = SVector::from([0.1 * k as f32]);
+///     let hold = prepared.gravity_forces(&q)[0];
+///     assert!((hold - 0.25 * 9.81 * 0.4 * q[0].cos()).abs() < 1e-6);
+/// }
+/// assert_eq!(Lever::LIMITS[0].effort, 12.0);
+/// ```
+///
+/// # Errors
+///
+/// Each mistake is one error at its own tokens, with what to do and its name, as `dynamics::MassNegative`. All
+/// mistakes of a phase are reported at once; a later phase runs on sound input only.
+///
+/// | of | |
+/// |---|---|
+/// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `FieldUnknown` |
+/// | the struct | `StructNeeded`, `FieldTypeUnsupported`, `FieldTypesDiffer` |
+/// | names | `NameDuplicate`, `NamesCollide`, `NameReserved` |
+/// | the tree | `JointMissing`, `DegreesOfFreedomMissing`, `JointsTooMany`, `ParentUnknown`, `BodyMissing`, `WorldIsChild`, `ParentTwice`, `Cycle`, `BodyUnreachable`, `ParentAfterChild` |
+/// | joints | `JointKindUnknown`, `AxisMissing`, `AxisUnneeded`, `AxisZero`, `AxisNotConstant`, `LimitsUnneeded`, `LimitsInverted`, `LimitNegative`, `ConstantNeeded`, `AngleLooksLikeDegrees` |
+/// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia` |
+/// | quantities | `UnitMismatch`, `UnitsDiffer`, `DivisionByZero`, `RootOfNegative` |
+/// | options | `OutputUnknown`, `AllowUnknown` |
+/// | the compiler | `SelfCheckFailed`: the finished code is compared with a plain recursion, and differs |
+///
+/// ```compile_fail
+/// # use dynamics_core::prelude::*;
+/// #[derive(Dynamics)]
+/// #[joint(hinge: revolute(z), world -> rod)]
+/// #[body(rod, mass = m, com = [r, 0, 0], inertia = diag(0, 0, m * r))] // UnitMismatch: kg·m where kg·m² is needed
+/// struct Lever<T> {
+///     m: T,
+///     r: T,
+/// }
+/// ```
 #[proc_macro_derive(Dynamics, attributes(dynamics, joint, body))]
 pub fn derive_dynamics(input: TokenStream) -> TokenStream {
     dynamics_codegen::derive(input.into()).into()

@@ -1,1 +1,22 @@
-//! stub
+//! The robot zoo, and what the tests across the crates share.
+//!
+//! Every robot of the [`zoo`] is compiled by the derive and keeps the text of its specification, so that the same
+//! robot can be run on every road to a number: the compiled Rust through [`Robot`], the compiler's own through
+//! [`roads`]. Comparison is by [`assert_close!`], with tolerances that have names.
+
+pub mod close;
+pub mod dual;
+pub mod random;
+pub mod reference;
+pub mod roads;
+mod robot;
+pub mod zoo;
+
+pub use dual::Dual;
+pub use random::{Random, State};
+pub use robot::{Forms, Frames, Method, Robot, Specialised, frame};
+
+/// A matrix of any size.
+pub type Matrix<T = f64> = nalgebra::DMatrix<T>;
+/// A column of any length.
+pub type Vector<T = f64> = nalgebra::DVector<T>;

@@ -21,7 +21,7 @@ macro_rules! catalogue {
                 }
             }
 
-            /// The name without its prefix, as in `MassNotPositive`.
+            /// The name without its prefix, as in `MassNegative`.
             pub fn name(self) -> &'static str {
                 match self {
                     $(Self::$name => stringify!($name),)+
@@ -124,8 +124,8 @@ catalogue! {
     InertiaMissing => "add `inertia = diag(…)`, or use `solid = point(m)` for a point mass",
     /// Inertia, or its place, without mass.
     MassMissing => "add `mass = …`",
-    /// The mass is zero or negative.
-    MassNotPositive => "give a mass in kilograms greater than zero, or leave out mass and inertia",
+    /// The mass is negative.
+    MassNegative => "give a mass in kilograms that is not negative; zero is a body without mass",
     /// A dimension of a solid is negative.
     SizeNegative => "give a size in metres that is not negative",
     /// The tensor is not symmetric as written.
@@ -158,7 +158,7 @@ catalogue! {
 }
 
 impl fmt::Display for Code {
-    /// The stable name, as in `dynamics::MassNotPositive`.
+    /// The stable name, as in `dynamics::MassNegative`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "dynamics::{}", self.name())
     }

@@ -1,5 +1,6 @@
 //! The equations of one robot: every output as expressions of coordinates, speeds and parameters.
 
+use super::aba;
 use super::composite::{self, Square};
 use super::energy;
 use super::factor::Factor;
@@ -205,23 +206,19 @@ pub struct Equation<'g> {
     pub blocks: Vec<Block<'g>>,
 }
 
-/// All equations of a robot.
-#[derive(Clone, Debug)]
-pub struct Equations<'g> {
-    /// The meaning of the symbols.
-    pub inputs: Inputs,
-    /// One entry for each method.
-    pub equations: Vec<Equation<'g>>,
-}
-
 /// The largest robot for which the equations by matrices and the chain rule may be cheaper than recursions.
 const LARGEST_FOR_MATRICES: usize = 3;
 
+/// The shortest chain for which articulated bodies may be cheaper than factoring the mass matrix.
+const SHORTEST_FOR_ARTICULATED_BODIES: usize = 8;
+
 /// A robot about to be derived: its trees and its inputs.
+#[derive(Clone)]
 pub struct Derivation<'g> {
     /// The meaning of the symbols.
     pub inputs: Inputs,
-    graph: &'g Graph,
+    /// Where the expressions live.
+    pub graph: &'g Graph,
     /// For poses and Jacobians.
     kinematic: NormalTree<Expr<'g>>,
     /// For everything with mass: regrouped, in a unit of length of its own.
@@ -257,8 +254,8 @@ impl<'g> Derivation<'g> {
     }
 
     /// The same derivation in another unit of length.
-    pub fn in_unit(self, length: Number) -> Self {
-        Self { dynamic: unit::in_unit(&self.dynamic, length), ..self }
+    pub fn in_unit(&self, length: Number) -> Self {
+        Self { dynamic: unit::in_unit(&self.dynamic, length), ..self.clone() }
     }
 
     /// What a method returns, derived in one or more ways of which the cheapest may be taken.
@@ -267,7 +264,16 @@ impl<'g> Derivation<'g> {
         if self.inputs.dof <= LARGEST_FOR_MATRICES {
             alternatives.extend(self.blocks_by_matrices(method));
         }
+        if method == Method::ForwardDynamics && self.longest_chain() >= SHORTEST_FOR_ARTICULATED_BODIES {
+            alternatives
+                .push(vec![vector("a", aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &self.tau))]);
+        }
         alternatives
+    }
+
+    fn longest_chain(&self) -> usize {
+        let links = 0..self.inputs.dof;
+        links.map(|link| self.dynamic.path_to_base(link).count()).max().unwrap_or(0)
     }
 
     /// The same by `M`, `C`, `G` and the chain rule, where that is another way.

@@ -1,5 +1,6 @@
 //! From a tree to its equations. One algorithm, one file.
 
+pub mod aba;
 pub mod composite;
 pub mod energy;
 pub mod equations;

@@ -23,13 +23,13 @@ pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) ->
     lines::check(spec, &slots, diags);
     let values = Values::new(spec, &slots, graph, diags);
     let units = Units::infer(&values, &slots, diags);
+    physics::check_numbers(spec, &values, diags);
     let field_type = field_type(spec, &values, diags);
     let topology = Topology::of(spec, diags);
     if diags.len() > before {
         return None;
     }
     let topology = topology?;
-    physics::check_numbers(spec, &values, diags);
     let tree = Assembly { spec, values: &values, topology: &topology }.tree(diags);
     let joints = joint_infos(spec, &values, diags);
     let parameters = parameters(&values, &units, &slots);

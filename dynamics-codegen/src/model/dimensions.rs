@@ -94,26 +94,37 @@ impl<'a> Units<'a> {
     }
 
     fn slot(&mut self, slot: &Slot, diags: &mut Diagnostics) {
-        let Some(Some(found)) = diags.keep(self.unit(slot.formula)) else { return };
-        let needed = Exponents::of(slot.quantity.exponents());
-        if let Some(field) = self.bare_field(slot.formula) {
-            self.origins[field].get_or_insert_with(|| slot.name());
+        let _ = diags.keep(self.fits(slot, slot.formula));
+    }
+
+    /// The formula has the unit that its slot needs; of a sum each term has it.
+    fn fits(&mut self, slot: &Slot, formula: &Formula) -> Result<(), Diagnostic> {
+        match &formula.kind {
+            FormulaKind::Sum(terms) => {
+                return terms.iter().try_for_each(|term| self.fits(slot, &term.formula));
+            }
+            FormulaKind::Negative(inner) => return self.fits(slot, inner),
+            FormulaKind::Name(name) => {
+                if let Some(field) = self.values.field(name) {
+                    self.origins[field].get_or_insert_with(|| slot.name());
+                }
+            }
+            _ => {}
         }
-        if self.equate(&found, &needed) {
-            return;
+        let Some(found) = self.unit(formula)? else { return Ok(()) };
+        if self.equate(&found, &Exponents::of(slot.quantity.exponents())) {
+            return Ok(());
         }
         let unit = slot.quantity.unit();
-        let message = format!("{} needs {unit}, and {}", slot.name(), self.text(slot.formula, &found));
-        let mismatch = Diagnostic::new(Code::UnitMismatch, &slot.formula.place, message);
-        diags.push(match slot.formula.kind {
+        let message = format!("{} needs {unit}, and {}", slot.name(), self.text(formula, &found));
+        let mismatch = Diagnostic::new(Code::UnitMismatch, &formula.place, message);
+        Err(match formula.kind {
             FormulaKind::Number(..) => {
                 mismatch.help(format!("write the number in {unit}, or without a unit"))
             }
-            FormulaKind::Name(_) => {
-                self.explained(mismatch.help("use a field of its own here"), &[slot.formula])
-            }
-            _ => self.explained(mismatch, &[slot.formula]),
-        });
+            FormulaKind::Name(_) => self.explained(mismatch.help("use a field of its own here"), &[formula]),
+            _ => self.explained(mismatch, &[formula]),
+        })
     }
 
     /// The unit of a formula. Equations within it are solved on the way.

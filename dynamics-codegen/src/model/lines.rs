@@ -2,7 +2,9 @@
 
 use super::quantities::{Quantity, Slot};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::spec::{BodySpec, JointKind, JointSpec, Name, PlacementKind, RobotSpec, plain};
+use crate::spec::{
+    BodySpec, Formula, FormulaKind, JointKind, JointSpec, Name, PlacementKind, RobotSpec, plain,
+};
 use crate::symbolic::Number;
 
 /// The methods that `outputs(…)` may name.
@@ -21,6 +23,7 @@ pub const OUTPUTS: &[&str] = &[
     "forward_dynamics_derivatives",
     "pose",
     "jacobian",
+    "world_jacobian",
 ];
 
 /// The one thing that `allow(…)` may name.
@@ -132,7 +135,7 @@ fn check_body(body: &BodySpec, diags: &mut Diagnostics) {
         return;
     }
     match (&body.mass, &body.inertia) {
-        (Some(mass), None) => {
+        (Some(mass), None) if !is_zero(mass) => {
             diags.error(Code::InertiaMissing, &mass.place, format!("`{name}` has a mass, and no inertia"));
         }
         (None, Some(inertia)) => {
@@ -145,7 +148,16 @@ fn check_body(body: &BodySpec, diags: &mut Diagnostics) {
                 diags.error(Code::MassMissing, &part.place, format!("`{name}` has `{key}`, and no mass"));
             }
         }
-        (Some(_), Some(_)) => {}
+        (Some(_), _) => {}
+    }
+}
+
+/// Whether a literal says zero: a body without mass has no inertia to give.
+fn is_zero(formula: &Formula) -> bool {
+    match &formula.kind {
+        FormulaKind::Number(value, _) => value.is_zero(),
+        FormulaKind::Negative(inner) => is_zero(inner),
+        _ => false,
     }
 }
 

@@ -14,10 +14,10 @@ pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagn
     for body in &spec.bodies {
         let mass = body.mass.as_ref().or(body.solid.as_ref().map(|solid| &*solid.mass));
         if let Some((formula, mass)) = mass.and_then(|mass| Some((mass, constant(values, mass)?)))
-            && mass.signum() <= 0
+            && mass.is_negative()
         {
             let message = format!("the mass of `{}` is {} kg", body.name, plain(mass));
-            diags.error(Code::MassNotPositive, &formula.place, message);
+            diags.error(Code::MassNegative, &formula.place, message);
         }
         check_sizes(body, values, diags);
         check_tensor(body, values, diags);
@@ -121,15 +121,15 @@ pub(super) fn check_links(
         return;
     }
     let moving: Vec<_> = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).collect();
-    let mut heavy = vec![false; tree.links.len()];
+    let mut moved = vec![Load::default(); tree.links.len()];
     for (k, link) in tree.links.iter().enumerate().rev() {
-        let beyond = heavy[k];
-        heavy[k] |= !link.inertia.mass.is_zero();
-        if let Some(parent) = link.parent.filter(|_| heavy[k]) {
-            heavy[parent] = true;
+        let beyond = moved[k];
+        moved[k] = beyond.and(Load::of(link.inertia));
+        if let Some(parent) = link.parent {
+            moved[parent] = moved[parent].and(moved[k]);
         }
         if let Some(joint) = moving.get(k) {
-            check_moved(joint, link, heavy[k], beyond, diags);
+            check_moved(joint, link, moved[k], beyond, diags);
         }
     }
     let all_allowed = allows(spec.options.allow.as_deref());
@@ -165,15 +165,39 @@ fn finite(tree: &Tree<Expr>, graph: &Graph) -> bool {
     finite
 }
 
+/// What a joint moves, as far as that decides whether it moves anything.
+#[derive(Clone, Copy, Default)]
+struct Load {
+    mass: bool,
+    /// Mass or, on a body that is said to have none, inertia.
+    inertia: bool,
+}
+
+impl Load {
+    fn of(body: PseudoInertia<Expr>) -> Self {
+        let mass = !body.mass.is_zero();
+        Self { mass, inertia: mass || has_second_moments(body) }
+    }
+
+    fn and(self, other: Self) -> Self {
+        Self { mass: self.mass || other.mass, inertia: self.inertia || other.inertia }
+    }
+}
+
+fn has_second_moments(body: PseudoInertia<Expr>) -> bool {
+    body.second.full().0.as_flattened().iter().any(|entry| !entry.is_zero())
+}
+
 /// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are.
-fn check_moved(joint: &JointSpec, link: &Link<Expr>, heavy: bool, beyond: bool, diags: &mut Diagnostics) {
+fn check_moved(joint: &JointSpec, link: &Link<Expr>, moved: Load, beyond: Load, diags: &mut Diagnostics) {
     let (name, child) = (&joint.name, &joint.child);
     let place = &joint.name.place;
-    if !heavy {
+    let moves = if link.motion == Motion::Revolute { moved.inertia } else { moved.mass };
+    if !moves {
         let message =
             format!("the joint `{name}` moves no mass: neither `{child}` nor what it carries has any");
         diags.error(Code::MovesNoMass, place, message);
-    } else if !beyond && link.motion == Motion::Revolute && turns_nothing(link.inertia) {
+    } else if !beyond.inertia && link.motion == Motion::Revolute && turns_nothing(link.inertia) {
         let message = format!("the joint `{name}` turns no inertia: all mass of `{child}` is on its axis");
         diags.error(Code::MovesNoInertia, place, message);
     }
@@ -191,14 +215,23 @@ fn allows(names: Option<&[Name]>) -> bool {
 
 /// `∫r rᵀ dm` about the centre of mass is positive semidefinite, if it is known.
 fn check_inertia(bodies: &[&BodySpec], inertia: PseudoInertia<Expr>, diags: &mut Diagnostics) {
+    let Some(body) = bodies.iter().find(|body| body.inertia.is_some()).or(bodies.first()) else { return };
+    if inertia.mass.is_zero() {
+        if has_second_moments(inertia) {
+            let message = format!(
+                "the mass of `{}` is 0 kg, and its inertia is not zero: no distribution of mass has it",
+                body.name
+            );
+            report_nonphysical(body, message, "give the body its mass", diags);
+        }
+        return;
+    }
     let Some([low, middle, high]) = second_moments(inertia) else { return };
     // Rods and laminas are on the boundary; of a point mass nothing is left but the rounding of constants.
     let rounding = 1e-20 * inertia.second.full().trace().as_number().map_or(0.0, Number::to_f64);
     if low >= -1e-6 * high.abs().max(middle.abs()) - rounding {
         return;
     }
-    let Some(body) = bodies.iter().find(|body| body.mass.is_some()).or(bodies.first()) else { return };
-    let place = body.inertia.as_ref().map_or(&body.place, |inertia| &inertia.place);
     let moments = [low + middle, low + high, middle + high];
     let [a, b, c] = moments.map(significant);
     let names = bodies.iter().filter(|body| body.mass.is_some() || body.solid.is_some());
@@ -209,8 +242,14 @@ fn check_inertia(bodies: &[&BodySpec], inertia: PseudoInertia<Expr>, diags: &mut
         format!("{c} is more than {a} + {b}, so no distribution of mass has them")
     };
     let message = format!("the principal moments of inertia of {names} are {a}, {b} and {c} kg·m²: {rule}");
-    let allowed = format!("{}, or accept it: `{}`", Code::InertiaNonphysical.help(), allowing(body));
-    diags.push(Diagnostic::new(Code::InertiaNonphysical, place, message).help(allowed));
+    report_nonphysical(body, message, Code::InertiaNonphysical.help(), diags);
+}
+
+/// Reports an inertia together with the line that would allow it.
+fn report_nonphysical(body: &BodySpec, message: String, help: &str, diags: &mut Diagnostics) {
+    let place = body.inertia.as_ref().map_or(&body.place, |inertia| &inertia.place);
+    let help = format!("{help}, or accept it: `{}`", allowing(body));
+    diags.push(Diagnostic::new(Code::InertiaNonphysical, place, message).help(help));
 }
 
 /// The body's line with the permission.

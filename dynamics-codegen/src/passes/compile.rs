@@ -3,7 +3,7 @@
 use super::parameters::Normaliser;
 use super::share::share;
 use super::{Companion, Cost, Operand, Program, Source};
-use crate::mechanics::equations::{Block, Derivation, Equation, Equations, Method};
+use crate::mechanics::equations::{Block, Derivation, Equation, Inputs, Method};
 use crate::model::Model;
 use crate::symbolic::{Expr, Graph, Number};
 
@@ -11,72 +11,163 @@ use crate::symbolic::{Expr, Graph, Number};
 pub struct Compiled<'g> {
     /// Where the expressions live.
     pub graph: &'g Graph,
-    /// The equations, simplified.
-    pub equations: Equations<'g>,
+    /// The meaning of the symbols.
+    pub inputs: Inputs,
     /// What is computed once for all calls.
     pub companion: Companion<'g>,
     /// How the companion's fields are computed.
     pub preparation: Program,
-    /// One program for each equation.
-    pub programs: Vec<Program>,
+    /// The methods, in order.
+    pub methods: Vec<CompiledMethod<'g>>,
 }
 
-/// The methods to compile: those named, or all.
-pub fn methods(wanted: Option<&[&str]>, frames: usize) -> Vec<Method> {
-    let of_frames =
-        (0..frames).flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
-    let is_wanted = |method: &Method| wanted.is_none_or(|names| names.contains(&method.name()));
-    Method::OF_ROBOT.into_iter().chain(of_frames).filter(is_wanted).collect()
+impl Compiled<'_> {
+    /// Every program: the preparation, and those of the methods.
+    pub fn programs(&self) -> impl Iterator<Item = &Program> {
+        let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
+            Plan::StraightLine { program, .. } => Some(program),
+            Plan::FromInverse { .. } => None,
+        });
+        std::iter::once(&self.preparation).chain(of_methods)
+    }
+}
+
+/// A method, ready to be written.
+pub struct CompiledMethod<'g> {
+    /// Which one.
+    pub method: Method,
+    /// How it is computed.
+    pub plan: Plan<'g>,
+    /// Its operations.
+    pub cost: Cost,
+}
+
+/// How a method is computed.
+pub enum Plan<'g> {
+    /// By a program of its own.
+    StraightLine {
+        /// What it returns, simplified.
+        blocks: Vec<Block<'g>>,
+        /// The operations.
+        program: Program,
+    },
+    /// Derivatives of forward dynamics from those of inverse dynamics, by the run time's loops over columns.
+    FromInverse {
+        /// The joints between each joint and the base.
+        ancestors: Vec<Vec<usize>>,
+    },
+}
+
+/// The largest robot whose many right-hand sides are solved in a straight line.
+const LARGEST_STRAIGHT_SOLVE: usize = 7;
+
+/// The methods to compile: those named and what they call, or all.
+pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
+    let frames = 0..model.tree.frames.len();
+    let of_frames = frames.flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
+    let by_parts = model.tree.dof() > LARGEST_STRAIGHT_SOLVE;
+    let is_wanted = |method: Method| wanted.is_none_or(|names| names.contains(&method.name()));
+    let is_called = |method: &Method| {
+        is_wanted(*method)
+            || (by_parts
+                && matches!(method, Method::ForwardDynamics | Method::InverseDynamicsDerivatives)
+                && is_wanted(Method::ForwardDynamicsDerivatives))
+    };
+    Method::OF_ROBOT.into_iter().chain(of_frames).filter(is_called).collect()
 }
 
 /// Compiles `methods` of `model`.
 pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> Compiled<'g> {
     let derivation = Derivation::of(model, graph);
-    let unit = best_unit(model, graph);
+    let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
-    let equation = |&method: &Method| Equation { method, blocks: cheapest(graph, &derivation, method) };
-    let equations =
-        Equations { inputs: derivation.inputs, equations: methods.iter().map(equation).collect() };
+    let by_parts = derivation.inputs.dof > LARGEST_STRAIGHT_SOLVE;
+    let in_parts = |method: Method| by_parts && method == Method::ForwardDynamicsDerivatives;
+    let straight = methods.iter().copied().filter(|&method| !in_parts(method));
+    let equations: Vec<Equation<'g>> =
+        straight.map(|method| Equation { method, blocks: cheapest(&derivation, method) }).collect();
     let companion = Companion::of(graph, &equations);
-    let preparation = companion.program(graph, &equations);
-    let program = |equation: &Equation<'g>| {
-        Program::of(graph, equations.inputs, &entries(&equation.blocks), |node| companion.read(node))
+    let inputs = derivation.inputs;
+    let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
+    for Equation { method, blocks } in equations {
+        let program = Program::of(graph, inputs, &entries(&blocks), |node| companion.read(node));
+        let cost = program.cost();
+        compiled.push(CompiledMethod { method, cost, plan: Plan::StraightLine { blocks, program } });
+    }
+    if methods.iter().any(|&method| in_parts(method)) {
+        let ancestors = ancestors(model);
+        let cost = cost_from_inverse(&ancestors, &compiled);
+        let method = Method::ForwardDynamicsDerivatives;
+        compiled.push(CompiledMethod { method, cost, plan: Plan::FromInverse { ancestors } });
+    }
+    Compiled { graph, inputs, preparation: companion.program(graph, inputs), companion, methods: compiled }
+}
+
+fn ancestors(model: &Model<'_>) -> Vec<Vec<usize>> {
+    let parent = |k: usize| model.tree.links[k].parent;
+    (0..model.tree.dof()).map(|k| std::iter::successors(parent(k), |&k| parent(k)).collect()).collect()
+}
+
+/// What the loops of the run time cost, with the two methods that they call.
+fn cost_from_inverse(ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
+    let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
+    let n = ancestors.len();
+    let pairs: usize = ancestors.iter().map(Vec::len).sum();
+    let eliminated: usize = ancestors.iter().flatten().map(|i| i + 1).sum();
+    let columns = 3 * n;
+    let mut cost = Cost {
+        multiplications: count(pairs + eliminated + columns * (2 * pairs + n)),
+        additions: count(eliminated + columns * 2 * pairs),
+        divisions: count(n),
+        ..Cost::default()
     };
-    let programs = equations.equations.iter().map(program).collect();
-    Compiled { graph, preparation, programs, companion, equations }
+    let called = [Method::ForwardDynamics, Method::InverseDynamicsDerivatives];
+    for part in compiled.iter().filter(|part| called.contains(&part.method)) {
+        cost = cost + part.cost;
+    }
+    cost
 }
 
 /// The unit of length in which inverse dynamics is cheapest.
-fn best_unit(model: &Model<'_>, graph: &Graph) -> Number {
-    let units = Derivation::of(model, graph).units();
+fn best_unit(derivation: &Derivation<'_>) -> Number {
+    let units = derivation.units();
     if units.len() == 1 {
         return units[0];
     }
     let cost = |unit: &Number| {
-        let scratch = Derivation::of(model, graph).in_unit(*unit);
-        let program =
-            Program::of(graph, scratch.inputs, &entries(&scratch.blocks(Method::InverseDynamics)), |_| None);
-        arithmetic(program.cost())
+        let entries = entries(&derivation.in_unit(*unit).blocks(Method::InverseDynamics));
+        arithmetic(Program::of(derivation.graph, derivation.inputs, &entries, |_| None).cost())
     };
     units.into_iter().min_by_key(cost).unwrap_or(Number::ONE)
 }
 
 /// The cheapest way to compute a method's result, simplified.
-fn cheapest<'g>(graph: &'g Graph, derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
-    let simplified = derivation.alternatives(method).into_iter().flat_map(|blocks| {
-        let mut normaliser = Normaliser::new(graph);
-        let plain: Vec<Expr<'g>> =
-            entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
-        let shared = share(graph, &plain, |node| graph.is_parameter_only(node));
-        [with_entries(&blocks, shared), with_entries(&blocks, plain)]
-    });
+fn cheapest<'g>(derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
+    let graph = derivation.graph;
+    let mut normaliser = Normaliser::new(graph);
     let at_hand = Operand { source: Source::Field(0), negative: false };
     let is_free = |node| graph.is_parameter_only(node).then_some(at_hand);
     let cost = |blocks: &Vec<Block<'g>>| {
         arithmetic(Program::of(graph, derivation.inputs, &entries(blocks), is_free).cost())
     };
+    let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
+    for blocks in derivation.alternatives(method) {
+        let entries = entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
+        plain.push(with_entries(&blocks, entries));
+    }
+    if derivation.inputs.dof > MOST_TO_SHARE_EACH {
+        plain.sort_by_key(cost);
+        plain.truncate(1);
+    }
+    let simplified = plain.into_iter().flat_map(|blocks| {
+        let shared = share(graph, &entries(&blocks), |node| graph.is_parameter_only(node));
+        [with_entries(&blocks, shared), blocks]
+    });
     simplified.min_by_key(cost).unwrap_or_default()
 }
+
+/// The largest robot of which every alternative is simplified before the cheapest is chosen.
+const MOST_TO_SHARE_EACH: usize = 3;
 
 fn arithmetic(cost: Cost) -> u32 {
     cost.multiplications + cost.additions + cost.divisions + cost.square_roots

@@ -5,7 +5,7 @@ use rustc_hash::FxHashMap;
 use super::parameters::{Normaliser, reads_negative};
 use super::program::{Operand, Program, Source};
 use super::share::share;
-use crate::mechanics::equations::Equations;
+use crate::mechanics::equations::{Equation, Inputs};
 use crate::symbolic::{Expr, Graph, NodeId, Op};
 
 /// The fields of the prepared companion: parameters that methods read, and what is made of them.
@@ -18,7 +18,7 @@ pub struct Companion<'g> {
 
 impl<'g> Companion<'g> {
     /// Finds what the equations need of parameter-only work.
-    pub fn of(graph: &'g Graph, equations: &Equations<'g>) -> Self {
+    pub fn of(graph: &'g Graph, equations: &[Equation<'g>]) -> Self {
         let mut companion = Self { fields: Vec::new(), reads: FxHashMap::default() };
         let mut normaliser = Normaliser::new(graph);
         for id in hoisted_nodes(graph, equations) {
@@ -35,9 +35,9 @@ impl<'g> Companion<'g> {
     }
 
     /// How the fields are computed from the parameters.
-    pub fn program(&self, graph: &'g Graph, equations: &Equations<'g>) -> Program {
+    pub fn program(&self, graph: &'g Graph, inputs: Inputs) -> Program {
         let shared = share(graph, &self.fields, |_| false);
-        Program::of(graph, equations.inputs, &shared, |_| None)
+        Program::of(graph, inputs, &shared, |_| None)
     }
 
     /// A field for the value, or for its negative if that reads better.
@@ -57,10 +57,10 @@ impl<'g> Companion<'g> {
 }
 
 /// The outermost parameter-only nodes, in the order in which the equations read them.
-fn hoisted_nodes(graph: &Graph, equations: &Equations<'_>) -> Vec<NodeId> {
+fn hoisted_nodes(graph: &Graph, equations: &[Equation<'_>]) -> Vec<NodeId> {
     let mut seen = vec![false; graph.len()];
     let mut found = Vec::new();
-    for block in equations.equations.iter().flat_map(|equation| &equation.blocks) {
+    for block in equations.iter().flat_map(|equation| &equation.blocks) {
         for entry in &block.entries {
             let Expr::Node { id, .. } = *entry else { continue };
             let mut stack = vec![id];

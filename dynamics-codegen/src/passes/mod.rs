@@ -8,7 +8,8 @@ mod share;
 mod signs;
 mod verify;
 
-pub use compile::{Compiled, compile, entries, methods};
+pub use compile::{Compiled, CompiledMethod, Plan, compile, entries, methods};
 pub use hoist::Companion;
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
+pub use share::share;
 pub use verify::{Disagreement, disagreements};

@@ -88,6 +88,19 @@ pub struct Cost {
     pub sines_and_cosines: u32,
 }
 
+impl std::ops::Add for Cost {
+    type Output = Self;
+    fn add(self, rhs: Self) -> Self {
+        Self {
+            multiplications: self.multiplications + rhs.multiplications,
+            additions: self.additions + rhs.additions,
+            divisions: self.divisions + rhs.divisions,
+            square_roots: self.square_roots + rhs.square_roots,
+            sines_and_cosines: self.sines_and_cosines + rhs.sines_and_cosines,
+        }
+    }
+}
+
 /// A straight line of steps and its results.
 #[derive(Clone, Debug)]
 pub struct Program {
@@ -173,6 +186,15 @@ impl Program {
             values.push(value);
         }
         self.results.iter().map(|&operand| read(&values, operand)).collect()
+    }
+
+    /// A constant that no double can hold, if there is one.
+    pub fn constant_out_of_range(&self) -> Option<Number> {
+        let operands = self.steps.iter().flat_map(|step| step.operation.operands());
+        operands.chain(self.results.iter().copied()).find_map(|operand| match operand.source {
+            Source::Constant(value) if !value.to_f64().is_finite() => Some(value),
+            _ => None,
+        })
     }
 
     fn count_uses(&mut self) {

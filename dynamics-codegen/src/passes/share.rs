@@ -11,7 +11,7 @@
 mod candidates;
 mod terms;
 
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::symbolic::{Expr, Graph, NodeId, Op};
 use terms::{Atom, Coefficient, Definitions, ONE, Term};
@@ -22,11 +22,7 @@ const LARGEST_SEARCH: usize = 5_000;
 const ROUNDS: usize = 60;
 
 /// Equal expressions with fewer operations; `is_leaf` are the nodes that cost nothing.
-pub(super) fn share<'g>(
-    graph: &'g Graph,
-    results: &[Expr<'g>],
-    is_leaf: impl Fn(NodeId) -> bool,
-) -> Vec<Expr<'g>> {
+pub fn share<'g>(graph: &'g Graph, results: &[Expr<'g>], is_leaf: impl Fn(NodeId) -> bool) -> Vec<Expr<'g>> {
     let mut flat = Flattened::of(graph, results, &is_leaf);
     flat.merge_single_uses();
     if flat.definitions.number_of_terms() <= LARGEST_SEARCH {
@@ -44,8 +40,11 @@ pub(super) fn share<'g>(
 struct Flattened<'g> {
     graph: &'g Graph,
     definitions: Definitions,
+    /// The node that each atom stands for; those that come later were extracted.
+    nodes: Vec<NodeId>,
+    atoms: FxHashMap<NodeId, Atom>,
     /// Atoms that are computed otherwise: quotients, roots, sines.
-    opaque: Vec<NodeId>,
+    opaque: FxHashSet<NodeId>,
     /// How often results and opaque operations read an atom: those keep their own value.
     pinned: FxHashMap<Atom, usize>,
 }
@@ -55,8 +54,10 @@ impl<'g> Flattened<'g> {
         let uses = count_uses(graph, results, is_leaf);
         let mut flat = Self {
             graph,
-            definitions: Definitions::new(graph.len()),
-            opaque: Vec::new(),
+            definitions: Definitions::new(),
+            nodes: Vec::new(),
+            atoms: FxHashMap::default(),
+            opaque: FxHashSet::default(),
             pinned: FxHashMap::default(),
         };
         let mut waiting: Vec<NodeId> = Vec::new();
@@ -65,9 +66,9 @@ impl<'g> Flattened<'g> {
                 flat.pin(id, &mut waiting);
             }
         }
-        let mut seen = vec![false; graph.len()];
+        let mut seen = FxHashSet::default();
         while let Some(id) = waiting.pop() {
-            if std::mem::replace(&mut seen[id.index()], true) || is_leaf(id) {
+            if !seen.insert(id) || is_leaf(id) {
                 continue;
             }
             match graph.op(id) {
@@ -75,11 +76,12 @@ impl<'g> Flattened<'g> {
                 Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Scale(..) => {
                     let terms = flat.terms_of(id, &uses, is_leaf);
                     let atoms = terms.iter().flat_map(|term| flat.definitions.atoms(term.monomial).to_vec());
-                    waiting.extend(atoms.map(|atom| graph.node(atom.index())));
-                    flat.definitions.define(Atom::of(id.index()), terms);
+                    waiting.extend(atoms.map(|atom| flat.nodes[atom.index()]));
+                    let atom = flat.atom(id);
+                    flat.definitions.define(atom, terms);
                 }
                 op => {
-                    flat.opaque.push(id);
+                    flat.opaque.insert(id);
                     for operand in op.operands().into_iter().flatten() {
                         flat.pin(operand, &mut waiting);
                     }
@@ -89,8 +91,18 @@ impl<'g> Flattened<'g> {
         flat
     }
 
+    /// The atom of a node, made if it is new.
+    fn atom(&mut self, id: NodeId) -> Atom {
+        let (nodes, definitions) = (&mut self.nodes, &mut self.definitions);
+        *self.atoms.entry(id).or_insert_with(|| {
+            nodes.push(id);
+            definitions.new_atom()
+        })
+    }
+
     fn pin(&mut self, id: NodeId, waiting: &mut Vec<NodeId>) {
-        *self.pinned.entry(Atom::of(id.index())).or_insert(0) += 1;
+        let atom = self.atom(id);
+        *self.pinned.entry(atom).or_insert(0) += 1;
         waiting.push(id);
     }
 
@@ -142,7 +154,7 @@ impl<'g> Flattened<'g> {
                     let value = self.definitions.coefficient(self.graph.number(k));
                     coefficient = self.definitions.product(coefficient, value);
                 }
-                _ => atoms.push(Atom::of(id.index())),
+                _ => atoms.push(self.atom(id)),
             }
         }
         Term { coefficient, monomial: self.definitions.monomial(atoms) }
@@ -194,7 +206,7 @@ impl<'g> Flattened<'g> {
             rebuilt.push(match *result {
                 Expr::Constant(_) => *result,
                 Expr::Node { id, negative, .. } => {
-                    let value = self.expression(Atom::of(id.index()), &mut known);
+                    let value = self.expression(self.atoms[&id], &mut known);
                     if negative { -value } else { value }
                 }
             });
@@ -227,13 +239,13 @@ impl<'g> Flattened<'g> {
             return terms.iter().flat_map(|term| self.definitions.atoms(term.monomial).to_vec()).collect();
         }
         match self.opaque_op(atom) {
-            Some(op) => op.operands().into_iter().flatten().map(|id| Atom::of(id.index())).collect(),
+            Some(op) => op.operands().into_iter().flatten().map(|id| self.atoms[&id]).collect(),
             None => Vec::new(),
         }
     }
 
     fn opaque_op(&self, atom: Atom) -> Option<Op> {
-        let id = self.opaque.iter().find(|id| id.index() == atom.index())?;
+        let id = self.nodes.get(atom.index()).filter(|id| self.opaque.contains(*id))?;
         Some(self.graph.op(*id))
     }
 
@@ -244,13 +256,13 @@ impl<'g> Flattened<'g> {
             let terms = positive.into_iter().chain(negative);
             return terms.fold(Expr::ZERO, |sum, term| sum + self.term(term, known));
         }
-        let of = |id: NodeId| known[&Atom::of(id.index())];
+        let of = |id: NodeId| known[&self.atoms[&id]];
         match self.opaque_op(atom) {
             Some(Op::Div(a, b)) => of(a) / of(b),
             Some(Op::Sin(a)) => of(a).sin(),
             Some(Op::Cos(a)) => of(a).cos(),
             Some(Op::Sqrt(a)) => of(a).sqrt().expect("a root that was made before"),
-            _ => Expr::of_node(self.graph, self.graph.node(atom.index())),
+            _ => Expr::of_node(self.graph, self.nodes[atom.index()]),
         }
     }
 

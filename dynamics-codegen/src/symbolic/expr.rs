@@ -296,3 +296,26 @@ impl fmt::Debug for Expr<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Expr;
+    use crate::symbolic::{Graph, Number, SymbolId};
+
+    #[test]
+    fn a_coefficient_too_small_for_a_double_is_zero() {
+        let graph = Graph::new();
+        let (x, y) = (graph.symbol(SymbolId(0)), graph.symbol(SymbolId(1)));
+        let tiny = Number::parse_decimal("1.3e-200").map(Expr::Constant).expect("a double holds it");
+        assert_eq!(tiny * tiny, Expr::ZERO);
+        assert_eq!(tiny * (tiny * x), Expr::ZERO);
+        assert_eq!((tiny * x) * -(tiny * y), Expr::ZERO);
+        assert_eq!(tiny * (tiny * x) + y, y);
+    }
+
+    #[test]
+    fn a_coefficient_too_large_for_a_double_shows_as_no_number() {
+        let huge = Number::parse_decimal("1.3e200").map(Expr::Constant).expect("a double holds it");
+        assert!((huge * huge).as_number().is_some_and(|product| !product.is_finite()));
+    }
+}

@@ -6,9 +6,9 @@ use super::body::{self, Context, Literals};
 use super::methods::{self, Written};
 use super::names::Names;
 use super::{Form, Input, Item};
-use crate::mechanics::equations::{Equation, Input as Symbol, Method};
+use crate::mechanics::equations::{Input as Symbol, Method};
 use crate::model::Limits;
-use crate::passes::{Cost, Program};
+use crate::passes::Cost;
 use crate::symbolic::{Expr, Op};
 
 /// Writes everything that is generated for a robot.
@@ -60,7 +60,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
         Self {
             input,
             item: input.item,
-            dof: input.compiled.equations.inputs.dof,
+            dof: input.compiled.inputs.dof,
             scalar,
             parameters,
             fields,
@@ -120,11 +120,8 @@ impl<'m, 'g> Emitter<'m, 'g> {
             literals: self.literals(),
             dof: self.dof,
         };
-        let write = |(equation, program): (&Equation<'g>, &Program)| {
-            methods::write(equation, program, &context, &self.scalar, &self.prepared())
-        };
-        let compiled = self.input.compiled;
-        compiled.equations.equations.iter().zip(&compiled.programs).map(write).collect()
+        let write = |method| methods::write(method, &context, &self.scalar, &self.prepared());
+        self.input.compiled.methods.iter().map(write).collect()
     }
 
     fn companion_struct(&self) -> String {
@@ -444,7 +441,7 @@ fn field_names(input: &Input<'_, '_>, parameters: &[String]) -> Vec<String> {
     let name = |field: &Expr<'_>| {
         if let Expr::Node { id, .. } = *field
             && let Op::Symbol(symbol) = input.compiled.graph.op(id)
-            && let Symbol::Parameter(k) = input.compiled.equations.inputs.meaning(symbol)
+            && let Symbol::Parameter(k) = input.compiled.inputs.meaning(symbol)
         {
             return parameters[k].clone();
         }

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::body::{self, Body, Context};
-use crate::mechanics::equations::{Argument, Block, Equation, Input, Method, Shape};
-use crate::passes::{Cost, Program};
+use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
+use crate::passes::{CompiledMethod, Cost, Plan, Program};
 
 /// A method on its way into an impl.
 pub(super) struct Written {
@@ -16,25 +16,40 @@ pub(super) struct Written {
     pub(super) text: String,
 }
 
-/// Writes the method of an equation; `scalar` is the name of its scalar type.
+/// Writes a method; `scalar` is the name of its scalar type, `robot` that of the type it is a method of.
 pub(super) fn write(
-    equation: &Equation<'_>,
-    program: &Program,
+    compiled: &CompiledMethod<'_>,
     context: &Context<'_>,
     scalar: &str,
     robot: &str,
 ) -> Written {
-    let names = body::entry_names(&equation.blocks, context.dof);
-    let body = body::write(program, &names, context, 2);
-    let cost = program.cost();
+    let CompiledMethod { method, plan, cost } = compiled;
     let mut text = String::new();
-    let _ = writeln!(text, "    /// {}", headline(equation.method, context.dof));
-    let _ = writeln!(text, "    ///\n    /// {}.", describe(cost));
+    let _ = writeln!(text, "    /// {}", headline(*method, context.dof));
+    let _ = writeln!(text, "    ///\n    /// {}.", describe(*cost));
+    match plan {
+        Plan::StraightLine { blocks, program } => {
+            text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
+        }
+        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar)),
+    }
+    Written { method: *method, cost: *cost, text }
+}
+
+fn straight_line(
+    method: Method,
+    blocks: &[Block<'_>],
+    program: &Program,
+    context: &Context<'_>,
+    scalar: &str,
+    robot: &str,
+) -> String {
+    let names = body::entry_names(blocks, context.dof);
+    let body = body::write(program, &names, context, 2);
     let reads_robot = if body.fields.is_empty() { "_robot" } else { "robot" };
-    let receiver =
-        if takes_robot(equation.method) { format!("{reads_robot}: &{robot}") } else { "&self".to_owned() };
-    let _ = writeln!(text, "{}", signature(equation.method, &receiver, scalar, context.dof, &body));
-    text.push_str(&bindings(equation.method, context, &body));
+    let receiver = if takes_robot(method) { format!("{reads_robot}: &{robot}") } else { "&self".to_owned() };
+    let mut text = signature(method, &receiver, scalar, context.dof, &body) + "\n";
+    text.push_str(&bindings(method, context, &body));
     if !body.statements.is_empty() {
         text.push('\n');
         text.push_str(&body.statements);
@@ -42,8 +57,28 @@ pub(super) fn write(
     if !body.statements.is_empty() || !body.inputs.is_empty() || !body.fields.is_empty() {
         text.push('\n');
     }
-    let _ = write!(text, "{}    }}\n", result(equation, &body));
-    Written { method: equation.method, cost, text }
+    text.push_str(&result(method, blocks, &body));
+    text.push_str("    }\n");
+    text
+}
+
+/// The body that leaves the solves to the run time.
+fn from_inverse(ancestors: &[Vec<usize>], scalar: &str) -> String {
+    let n = ancestors.len();
+    let mut text = format!(
+        "    fn forward_dynamics_derivatives(&self, q: &SVector<{scalar}, {n}>, v: &SVector<{scalar}, {n}>, \
+         tau: &SVector<{scalar}, {n}>) -> ForwardDynamicsDerivatives<{scalar}, {n}> {{\n"
+    );
+    let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
+    for ancestors in ancestors {
+        let list: Vec<String> = ancestors.iter().map(usize::to_string).collect();
+        let _ = writeln!(text, "            &[{}],", list.join(", "));
+    }
+    text.push_str(
+        "        ];\n        let a = self.forward_dynamics(q, v, tau);\n        \
+         forward_from_inverse(&ANCESTORS, &self.inverse_dynamics_derivatives(q, v, &a))\n    }\n",
+    );
+    text
 }
 
 /// Whether the method belongs to a frame, and is given the robot.
@@ -159,21 +194,21 @@ fn shortened(components: &[&str]) -> String {
 }
 
 /// The expression that is returned.
-fn result(equation: &Equation<'_>, body: &Body) -> String {
+fn result(method: Method, blocks: &[Block<'_>], body: &Body) -> String {
     let mut texts = body.results.iter().map(String::as_str);
     let mut block_text = |block: &Block<'_>, indent: usize| {
         let entries: Vec<&str> = texts.by_ref().take(block.entries.len()).collect();
         block_expression(block.shape, &entries, indent)
     };
-    let structure = match equation.method {
+    let structure = match method {
         Method::EquationsOfMotion => "EquationsOfMotion",
         Method::InverseDynamicsDerivatives => "InverseDynamicsDerivatives",
         Method::ForwardDynamicsDerivatives => "ForwardDynamicsDerivatives",
         Method::Pose(_) => "Pose",
-        _ => return format!("        {}\n", block_text(&equation.blocks[0], 2)),
+        _ => return format!("        {}\n", block_text(&blocks[0], 2)),
     };
     let mut text = format!("        {structure} {{\n");
-    for block in &equation.blocks {
+    for block in blocks {
         let _ = writeln!(text, "            {}: {},", block.name, block_text(block, 3));
     }
     text.push_str("        }\n");

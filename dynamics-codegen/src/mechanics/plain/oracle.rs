@@ -168,7 +168,8 @@ impl<'t> Oracle<'t> {
     }
 
     /// How far claimed derivatives of forward dynamics miss `M·∂a/∂x = −∂τ/∂x` and `M·∂a/∂τ = 1`: the largest of
-    /// the three, each over `‖|M||∂a| + |∂τ|‖` in the largest entry.
+    /// the three, each over `‖|M||∂a| + |∂τ|‖ + ‖M‖` in the largest entry. The last term is the size of what
+    /// acts at speeds of one: where the derivatives vanish, what is left of them is rounding of forces as large.
     pub fn forward_dynamics_derivatives_residual(
         &self,
         q: &[f64],
@@ -181,7 +182,8 @@ impl<'t> Oracle<'t> {
         let of = |X: &Rows, B: &Rows| {
             let scale = sum(&product(&magnitudes(&dtau_da), &magnitudes(X)), &magnitudes(B));
             let missed = sum(&product(&dtau_da, X), &negative(B));
-            relative(largest(missed.iter().flatten()), largest(scale.iter().flatten()))
+            let floor = largest(magnitudes(&dtau_da).iter().flatten());
+            relative(largest(missed.iter().flatten()), largest(scale.iter().flatten()) + floor)
         };
         largest(&[
             of(&claimed.da_dq, &negative(&dtau_dq)),

@@ -73,11 +73,11 @@ pub(super) struct Definitions {
 }
 
 impl Definitions {
-    /// No definitions; atoms below `atoms` are taken.
-    pub(super) fn new(atoms: usize) -> Self {
+    /// No definitions.
+    pub(super) fn new() -> Self {
         let empty: Box<[Atom]> = Box::new([]);
         Self {
-            terms: vec![None; atoms],
+            terms: Vec::new(),
             monomials: vec![empty.clone()],
             monomial_index: std::iter::once((empty, Monomial::EMPTY)).collect(),
             magnitudes: vec![Number::ONE],
@@ -93,6 +93,12 @@ impl Definitions {
 
     pub(super) fn terms(&self, atom: Atom) -> Option<&[Term]> {
         self.terms[atom.index()].as_deref()
+    }
+
+    /// An atom without a definition.
+    pub(super) fn new_atom(&mut self) -> Atom {
+        self.terms.push(None);
+        Atom::of(self.terms.len() - 1)
     }
 
     pub(super) fn define(&mut self, atom: Atom, terms: Vec<Term>) {

@@ -1,0 +1,165 @@
+//! The compiler's own roads to a robot's numbers: the interpreted programs, the plain recursion, and Lagrange's.
+
+use dynamics_codegen::diagnostics::Diagnostics;
+use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
+use dynamics_codegen::mechanics::lagrange::{self, Coordinates, Lagrange};
+use dynamics_codegen::mechanics::plain::Oracle;
+use dynamics_codegen::model::{self, Model, Tree};
+use dynamics_codegen::passes::{self, Compiled};
+use dynamics_codegen::spec;
+use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
+
+use crate::State;
+use crate::zoo::Entry;
+
+/// The struct of a robot, read from its text.
+///
+/// # Panics
+///
+/// If the text is no struct: the derive has compiled it.
+pub fn input(entry: &Entry) -> syn::DeriveInput {
+    syn::parse_str(entry.source).unwrap_or_else(|error| panic!("{}: {error}", entry.name))
+}
+
+/// Runs `with` on the robot as the compiler sees it.
+///
+/// # Panics
+///
+/// If the compiler finds a mistake in the robot: the derive has compiled it.
+pub fn travel<R>(entry: &Entry, with: impl FnOnce(&Roads<'_>) -> R) -> R {
+    let graph = Graph::new();
+    let mut diags = Diagnostics::new();
+    let spec = spec::parse(&input(entry), &mut diags);
+    let model = model::build(&spec, &graph, &mut diags);
+    let mistakes = diags.into_text();
+    let model = model.unwrap_or_else(|| panic!("{}: {mistakes}", entry.name));
+    with(&Roads::of(entry, &graph, model))
+}
+
+/// A robot inside the compiler, its parameters at the values of the zoo.
+pub struct Roads<'g> {
+    graph: &'g Graph,
+    /// What the specification means.
+    pub model: Model<'g>,
+    /// The tree in numbers.
+    pub tree: Tree<f64>,
+    parameters: Vec<f64>,
+}
+
+impl<'g> Roads<'g> {
+    fn of(entry: &Entry, graph: &'g Graph, model: Model<'g>) -> Self {
+        let value = |name: &str| {
+            let known = entry.parameters.iter().find(|(known, _)| *known == name);
+            known.unwrap_or_else(|| panic!("{}: no value for `{name}`", entry.name)).1
+        };
+        let parameters: Vec<f64> = model.parameters.iter().map(|parameter| value(&parameter.name)).collect();
+        let mut evaluator = Evaluator::new(graph, |symbol: SymbolId| parameters[symbol.0 as usize]);
+        let tree = model.tree.map(|expr| evaluator.value(expr));
+        Self { graph, model, tree, parameters }
+    }
+
+    /// The plain recursion in doubles.
+    pub fn oracle(&self) -> Oracle<'_> {
+        Oracle::new(&self.tree)
+    }
+
+    /// The programs that the derive would write, to be run here.
+    pub fn interpreter(&self) -> Interpreter<'_, 'g> {
+        let methods = passes::methods(None, self.model.tree.frames.len());
+        let compiled = passes::compile(&self.model, self.graph, &methods);
+        let read = |input| match input {
+            Input::Parameter(k) => self.parameters[k],
+            Input::Argument(..) => unreachable!("the preparation reads parameters only"),
+        };
+        let fields = compiled.preparation.evaluate(read, &[]);
+        Interpreter { roads: self, compiled, fields }
+    }
+
+    /// The equations of Lagrange, with their derivation's own mechanics.
+    pub fn lagrangian(&self) -> Lagrangian {
+        Lagrangian { tree: self.tree.clone() }
+    }
+}
+
+/// The interpreted programs of a robot.
+pub struct Interpreter<'r, 'g> {
+    roads: &'r Roads<'g>,
+    compiled: Compiled<'g>,
+    fields: Vec<f64>,
+}
+
+impl Interpreter<'_, '_> {
+    /// The results of a method's program, matrices by rows, one block after the other.
+    ///
+    /// # Panics
+    ///
+    /// If the robot has no such method.
+    pub fn run(&self, method: Method, state: &State) -> Vec<f64> {
+        let read = |input| match input {
+            Input::Parameter(k) => self.roads.parameters[k],
+            Input::Argument(Argument::Q, k) => state.q[k],
+            Input::Argument(Argument::V, k) => state.v[k],
+            Input::Argument(Argument::A, k) => state.a[k],
+            Input::Argument(Argument::Tau, k) => state.tau[k],
+        };
+        let mut equations = self.compiled.equations.equations.iter().zip(&self.compiled.programs);
+        let (_, program) = equations
+            .find(|(equation, _)| equation.method == method)
+            .unwrap_or_else(|| panic!("no program for {method:?}"));
+        program.evaluate(read, &self.fields)
+    }
+}
+
+/// The equations of motion by differentiating the energies.
+pub struct Lagrangian {
+    tree: Tree<f64>,
+}
+
+/// The numbers of Lagrange's equations at a state.
+#[derive(Clone, Debug)]
+pub struct Motion {
+    /// `T`
+    pub kinetic_energy: f64,
+    /// `V`
+    pub potential_energy: f64,
+    /// `M`, by rows.
+    pub mass_matrix: Vec<f64>,
+    /// `C`, by rows.
+    pub coriolis_matrix: Vec<f64>,
+    /// `G`
+    pub gravity_forces: Vec<f64>,
+    /// `τ`
+    pub inverse_dynamics: Vec<f64>,
+}
+
+impl Lagrangian {
+    /// Derives once, and evaluates at each state.
+    pub fn at(&self, states: &[State]) -> Vec<Motion> {
+        let (graph, n) = (Graph::new(), self.tree.dof());
+        let [q, v, a] = [0, 1, 2].map(|block| symbols(n, block));
+        let tree =
+            self.tree.map(|x| Expr::from(Number::from_f64(x).expect("the robot's numbers are finite")));
+        let derived = lagrange::derive(&graph, &tree, Coordinates { q: &q, v: &v, a: &a });
+        states.iter().map(|state| evaluate(&graph, &derived, state)).collect()
+    }
+}
+
+fn symbols(n: usize, block: usize) -> Vec<SymbolId> {
+    (0..n).map(|k| SymbolId(u32::try_from(block * n + k).expect("a small robot"))).collect()
+}
+
+fn evaluate<'g>(graph: &'g Graph, derived: &Lagrange<'g>, state: &State) -> Motion {
+    let inputs = [state.q.as_slice(), state.v.as_slice(), state.a.as_slice()].concat();
+    let mut evaluator = Evaluator::new(graph, |symbol: SymbolId| inputs[symbol.0 as usize]);
+    let mut values =
+        |block: &[Expr<'g>]| block.iter().map(|&expr| evaluator.value(expr)).collect::<Vec<f64>>();
+    let energies = values(&[derived.kinetic_energy, derived.potential_energy]);
+    Motion {
+        kinetic_energy: energies[0],
+        potential_energy: energies[1],
+        mass_matrix: values(&derived.mass_matrix.concat()),
+        coriolis_matrix: values(&derived.coriolis_matrix.concat()),
+        gravity_forces: values(&derived.gravity_forces),
+        inverse_dynamics: values(&derived.inverse_dynamics),
+    }
+}
