@@ -63,12 +63,8 @@ fn judge() {
     row("M12", m[(0, 1)], 0.0);
     row("M22", m[(1, 1)], m22);
     row("V", JUDGE.potential_energy(&q), v);
-    println!(
-        "{} takes {} and, once for all, {}.\n",
-        "M(q)",
-        RoboJudge::COST.mass_matrix,
-        RoboJudge::COST.prepare
-    );
+    let Costs { mass_matrix, prepare, .. } = RoboJudge::COST;
+    println!("M(q) takes {mass_matrix}; what depends on fields alone, once for all methods, {prepare}.\n");
 }
 
 /// The Lagrangian of the box as it leaves the hand, then its flight.

@@ -65,6 +65,8 @@ pub fn generate(input: &syn::DeriveInput) -> Result<String, Diagnostics> {
     let model = model::build(&spec, &graph, &mut diags); //      a checked kinematic tree
     diags.check()?;
     let model = model.expect("a model that is not built has been complained about");
+    check_motions(&spec, &model, &graph, &mut diags);
+    diags.check()?;
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
@@ -77,6 +79,24 @@ pub fn generate(input: &syn::DeriveInput) -> Result<String, Diagnostics> {
 
     let item = emit::rust::Item::of(&spec, &model);
     Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+}
+
+/// Bodies that are sound one by one can leave joints whose motions cancel each other.
+fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
+    let Some(idle) = mechanics::singular::idle_motion(model, graph) else { return };
+    let moving = spec.joints.iter().filter(|joint| joint.kind != spec::JointKind::Fixed);
+    let joints: Vec<_> =
+        moving.enumerate().filter(|(k, _)| idle.contains(k)).map(|(_, joint)| joint).collect();
+    let names: Vec<_> = joints.iter().map(|joint| format!("`{}`", joint.name)).collect();
+    let message = match names.as_slice() {
+        [only] => format!("the joint {only} moves no inertia in any configuration"),
+        _ => format!(
+            "the joints {} can move together without moving any mass: M is singular",
+            names.join(", ")
+        ),
+    };
+    let place = joints.first().map_or_else(|| spec.ident.span().into(), |joint| joint.name.place.clone());
+    diags.error(Code::MassMatrixSingular, &place, message);
 }
 
 /// Numbers that are sound one by one can have products beyond the range of doubles.

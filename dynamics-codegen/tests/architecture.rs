@@ -95,6 +95,7 @@ fn used_modules(source: &Source) -> Vec<(usize, String)> {
             }
             if !name.is_empty() {
                 used.push((line, std::mem::take(&mut name)));
+                starts = false;
             }
             depth += i32::from(letter == '{') - i32::from(letter == '}');
             starts = depth == 1 && (matches!(letter, '{' | ',') || starts && letter.is_whitespace());
@@ -151,8 +152,7 @@ fn the_ladder_is_all_there_is() {
 
 #[test]
 fn paths_are_read_as_rust_reads_them() {
-    let text =
-        "use crate::a::{b, c};\nuse crate::{\n    d::e,\n    f::{g, h}, // crate::i\n};\nlet x = crate::j;";
+    let text = "use crate::a::{b, c};\nuse crate::{\n    d::e,\n    f::{g, h} as l, // crate::i\n};\nlet x = crate::j;";
     let source = Source { path: "src/k.rs".to_owned(), text: text.to_owned() };
     let names: Vec<_> =
         used_modules(&source).into_iter().map(|(line, name)| format!("{line}{name}")).collect();
@@ -193,6 +193,20 @@ fn unsafe_code_is_forbidden_everywhere() {
             manifest.contains("[lints]\nworkspace = true") || forbids(&manifest),
             "{member} forbids nothing"
         );
+    }
+}
+
+/// What the table of invariants names as held by a test is a test.
+#[test]
+fn invariants_are_held_by_tests_that_exist() {
+    let map = read("ARCHITECTURE.md");
+    let table = map.split("## Invariants").nth(1).unwrap().split("\n## ").next().unwrap();
+    let tests = sources("dynamics-codegen/tests");
+    let names = table.split('`').skip(1).step_by(2);
+    let is_test = |name: &&str| name.matches('_').count() >= 2 && !name.contains(['/', '.']);
+    for name in names.filter(is_test).filter(|name| *name != "iter_over_hash_type") {
+        let heading = format!("\nfn {name}()");
+        assert!(tests.iter().any(|test| test.text.contains(&heading)), "there is no test `{name}`");
     }
 }
 

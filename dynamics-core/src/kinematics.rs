@@ -7,7 +7,7 @@ use core::ops::Mul;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::dynamics::Dynamics;
+use crate::mechanism::Mechanism;
 use crate::product::product;
 use crate::scalar::Scalar;
 
@@ -63,10 +63,7 @@ pub trait Kinematics<T: Scalar, const NQ: usize, const NV: usize> {
     }
 }
 
-impl<R, T: Scalar, const NQ: usize, const NV: usize> Kinematics<T, NQ, NV> for R where
-    R: Dynamics<T, NQ, NV> + ?Sized
-{
-}
+impl<R: Mechanism + ?Sized, T: Scalar, const NQ: usize, const NV: usize> Kinematics<T, NQ, NV> for R {}
 
 /// A rigid placement: `x_world = rotation·x_frame + translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]

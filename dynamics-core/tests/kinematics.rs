@@ -27,7 +27,7 @@ fn a_frame_is_the_only_type_argument() {
 fn frames_work_in_generic_code() {
     fn height<T: Scalar, R, F>(robot: &R, q: &SVector<T, 2>) -> T
     where
-        R: Dynamics<T, 2, 2>,
+        R: Mechanism,
         F: Frame<R, T, 2, 2>,
     {
         robot.pose::<F>(q).translation.z

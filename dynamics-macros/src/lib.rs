@@ -104,7 +104,7 @@ use proc_macro::TokenStream;
 ///
 /// | key | | default |
 /// |---|---|---|
-/// | `mass = m` | kg, with `inertia` | none |
+/// | `mass = m` | kg, with `inertia`; zero is a body without mass | none |
 /// | `com = [x, y, z]` | the centre of mass, m | the origin |
 /// | `inertia = …` | about the **centre of mass**, kg·m²: `diag(ixx, iyy, izz)`, `tensor(ixx, ixy, ixz, iyy, iyz, izz)` or `[[…], […], […]]` | |
 /// | `inertia_rpy = [r, p, y]` | turns the axes of `inertia` or `solid` | the body's |
@@ -176,7 +176,7 @@ use proc_macro::TokenStream;
 /// | names | `NameDuplicate`, `NamesCollide`, `NameReserved` |
 /// | the tree | `JointMissing`, `DegreesOfFreedomMissing`, `JointsTooMany`, `ParentUnknown`, `BodyMissing`, `WorldIsChild`, `ParentTwice`, `Cycle`, `BodyUnreachable`, `ParentAfterChild` |
 /// | joints | `JointKindUnknown`, `AxisMissing`, `AxisUnneeded`, `AxisZero`, `AxisNotConstant`, `LimitsUnneeded`, `LimitsInverted`, `LimitNegative`, `ConstantNeeded`, `AngleLooksLikeDegrees` |
-/// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia` |
+/// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia`, `MassMatrixSingular` |
 /// | quantities | `UnitMismatch`, `UnitsDiffer`, `DivisionByZero`, `RootOfNegative` |
 /// | options | `OutputUnknown`, `AllowUnknown` |
 /// | the compiler | `SelfCheckFailed`: the finished code is compared with a plain recursion, and differs |

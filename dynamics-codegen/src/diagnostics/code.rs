@@ -138,6 +138,8 @@ catalogue! {
     MovesNoMass => "give a body that the joint moves a mass, or make the joint `fixed`",
     /// A joint turns no inertia.
     MovesNoInertia => "give the body an inertia about the axis, or make the joint `fixed`",
+    /// Joints that can move together without moving any mass.
+    MassMatrixSingular => "give a body between these joints mass or inertia, or make one of the joints `fixed`",
     // Quantities
     /// An expression has another unit than its place needs.
     UnitMismatch => "check the expression for a missing or superfluous factor",

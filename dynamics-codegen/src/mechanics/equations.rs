@@ -65,6 +65,10 @@ impl Method {
         Method::ForwardDynamicsDerivatives,
     ];
 
+    /// The methods of the trait of derivatives.
+    pub const OF_DERIVATIVES: [Method; 2] =
+        [Method::InverseDynamicsDerivatives, Method::ForwardDynamicsDerivatives];
+
     /// The method's name in the trait.
     pub fn name(self) -> &'static str {
         match self {

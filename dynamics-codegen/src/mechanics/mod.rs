@@ -14,4 +14,5 @@ pub mod plain;
 pub mod regroup;
 pub mod rnea;
 pub mod rotation;
+pub mod singular;
 pub mod unit;

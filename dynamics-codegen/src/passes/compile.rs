@@ -66,7 +66,12 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
     let frames = 0..model.tree.frames.len();
     let of_frames = frames.flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
     let by_parts = model.tree.dof() > LARGEST_STRAIGHT_SOLVE;
-    let is_wanted = |method: Method| wanted.is_none_or(|names| names.contains(&method.name()));
+    // A frame has all of its kinematics or none.
+    let of_frame = ["pose", "jacobian", "world_jacobian"];
+    let is_wanted = |method: Method| {
+        let names = if of_frame.contains(&method.name()) { &of_frame[..] } else { &[method.name()] };
+        wanted.is_none_or(|wanted| wanted.iter().any(|name| names.contains(name)))
+    };
     let is_called = |method: &Method| {
         is_wanted(*method)
             || (by_parts

@@ -17,6 +17,17 @@ pub struct Pendulum<T> {
 /// The point mass of a [`Pendulum`], turning with it.
 pub struct Bob;
 
+impl<T> Mechanism for Pendulum<T> {
+    const NQ: usize = 1;
+    const NV: usize = 1;
+    const NU: usize = 1;
+    const NAME: &'static str = "Pendulum";
+    const JOINT_NAMES: &'static [&'static str] = &["pivot"];
+    const BODY_NAMES: &'static [&'static str] = &["bob"];
+    const LIMITS: &'static [JointLimits] = &[JointLimits::NONE];
+    const COST: Costs = Costs::ZERO;
+}
+
 impl<T: Scalar> Dynamics<T, 1, 1> for Pendulum<T> {
     fn mass_matrix(&self, _q: &SVector<T, 1>) -> SMatrix<T, 1, 1> {
         columns([[self.m * self.l * self.l]])

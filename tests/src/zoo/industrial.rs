@@ -22,7 +22,7 @@ robot! {
     /// PUMA 560 by Denavit and Hartenberg's parameters, centres and moments in the distal frames: B. Armstrong,
     /// O. Khatib, J. Burdick 1986, as collected by P. Corke, B. Armstrong-Hélouvry 1994.
     #[joint(joint1: revolute, world -> link1, dh(0, 90deg, 671.83mm, 0), limits = [-160deg, 160deg])]
-    #[body(link1, mass = 1, com = [0, -0.67183, 0], inertia = diag(0, 0.35, 0), allow(nonphysical_inertia))]
+    #[body(link1, mass = 1, inertia = diag(0, 0.35, 0), allow(nonphysical_inertia))]
     #[joint(joint2: revolute, link1 -> link2, dh(431.8mm, 0, 0, 0), limits = [-110deg, 110deg])]
     #[body(link2, mass = 17.4, com = [-0.3638, 0.006, 0.2275], inertia = diag(0.13, 0.524, 0.539))]
     #[joint(joint3: revolute, link2 -> link3, dh(20.3mm, -90deg, 150.05mm, 0), limits = [-135deg, 135deg])]

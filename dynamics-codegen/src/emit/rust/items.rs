@@ -28,7 +28,7 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
         emitter.mechanism(&written),
         emitter.dynamics(&written),
         emitter.derivatives(&written),
-        emitter.state_space(),
+        emitter.state_space(&written),
         emitter.frames(&written),
     ] {
         text.push_str(&part);
@@ -237,9 +237,13 @@ impl<'m, 'g> Emitter<'m, 'g> {
         }
         constants.push_str("            ..Costs::ZERO\n        };\n    }\n\n");
         let generics = if self.item.form == Form::Unit { String::new() } else { self.impl_generics() };
-        let mut text = String::new();
-        for type_ in self.types() {
-            let _ = write!(text, "    impl{generics} Mechanism for {type_} {{\n{constants}");
+        let mut text = format!("    impl{generics} Mechanism for {} {{\n{constants}", self.prepared());
+        if self.is_prepared() {
+            let _ = writeln!(text, "    impl{generics} Mechanism for {} {{", self.robot());
+            for (name, type_) in CONSTANTS {
+                let _ = writeln!(text, "        const {name}: {type_} = <{}>::{name};", self.prepared());
+            }
+            text.push_str("    }\n\n");
         }
         text
     }
@@ -250,35 +254,75 @@ impl<'m, 'g> Emitter<'m, 'g> {
     }
 
     fn dynamics(&self, written: &[Written]) -> String {
-        let wanted = |method: Method| {
-            !methods::takes_robot(method)
-                && !matches!(method, Method::InverseDynamicsDerivatives | Method::ForwardDynamicsDerivatives)
-        };
-        self.trait_impl("Dynamics", written, wanted)
+        let wanted =
+            |method: Method| !methods::takes_robot(method) && !Method::OF_DERIVATIVES.contains(&method);
+        self.trait_or_inherent("Dynamics", written, wanted, self.is_complete(written))
     }
 
     fn derivatives(&self, written: &[Written]) -> String {
-        self.trait_impl("DynamicsDerivatives", written, |method| {
-            matches!(method, Method::InverseDynamicsDerivatives | Method::ForwardDynamicsDerivatives)
-        })
+        let wanted = |method: Method| Method::OF_DERIVATIVES.contains(&method);
+        self.trait_or_inherent("DynamicsDerivatives", written, wanted, self.has_derivatives(written))
     }
 
-    fn trait_impl(&self, name: &str, written: &[Written], wanted: impl Fn(Method) -> bool) -> String {
-        let (scalar, n) = (&self.scalar, self.dof);
+    /// Whether `outputs(…)` left all that the trait `Dynamics` requires.
+    fn is_complete(&self, written: &[Written]) -> bool {
+        let has = |method: &Method| written.iter().any(|written| written.method == *method);
+        let optional = |method: &Method| *method == Method::EquationsOfMotion;
+        let required =
+            Method::OF_ROBOT.iter().filter(|m| !Method::OF_DERIVATIVES.contains(m) && !optional(m));
+        required.into_iter().all(has)
+    }
+
+    fn has_derivatives(&self, written: &[Written]) -> bool {
+        let has = |method: &Method| written.iter().any(|written| written.method == *method);
+        self.is_complete(written) && Method::OF_DERIVATIVES.iter().all(has)
+    }
+
+    /// An impl of the trait if all that it requires is there; otherwise the methods on their own.
+    fn trait_or_inherent(
+        &self,
+        name: &str,
+        written: &[Written],
+        wanted: impl Fn(Method) -> bool,
+        is_trait: bool,
+    ) -> String {
         let chosen: Vec<&Written> = written.iter().filter(|w| wanted(w.method)).collect();
-        let trait_ = format!("{name}<{scalar}, {n}, {n}>");
-        let mut text = self.open(&trait_, &self.prepared());
-        let bodies: Vec<String> = chosen.iter().map(|w| indented(&w.text)).collect();
-        text.push_str(&bodies.join("\n"));
-        text.push_str("    }\n\n");
+        if chosen.is_empty() {
+            return String::new();
+        }
+        let trait_ = format!("{name}<{}, {1}, {1}>", self.scalar, self.dof);
+        let open = |type_: &str| match is_trait {
+            true => self.open(&trait_, type_),
+            false => self.open_inherent(type_),
+        };
+        let declared = |method: Method, text: &str| match is_trait {
+            true => text.to_owned(),
+            false => self.inherent(method, text),
+        };
+        let bodies: Vec<String> = chosen.iter().map(|w| indented(&declared(w.method, &w.text))).collect();
+        let mut text = open(&self.prepared()) + &bodies.join("\n") + "    }\n\n";
         if self.is_prepared() {
-            text.push_str(&self.open(&trait_, &self.robot()));
-            for method in &chosen {
-                text.push_str(&self.forwarding(method.method, "&self", "self.prepare()."));
+            text.push_str(&open(&self.robot()));
+            for Written { method, .. } in chosen {
+                let forwarding = self.forwarding(*method, "&self", "self.prepare().");
+                text.push_str(&declared(*method, &forwarding));
             }
             text.push_str("    }\n\n");
         }
         text
+    }
+
+    /// The header of an inherent impl: on a unit struct each method has the scalar as its own parameter.
+    fn open_inherent(&self, type_: &str) -> String {
+        let generics = if self.item.form == Form::Unit { String::new() } else { self.impl_generics() };
+        format!("    impl{generics} {type_} {{\n")
+    }
+
+    /// The text of a trait's method as that of an inherent one.
+    fn inherent(&self, method: Method, text: &str) -> String {
+        let generics = if self.item.form == Form::Unit { self.impl_generics() } else { String::new() };
+        let name = method.name();
+        text.replacen(&format!("fn {name}("), &format!("{}fn {name}{generics}(", self.item.visibility), 1)
     }
 
     /// A method of the robot that prepares and passes on.
@@ -296,7 +340,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
         )
     }
 
-    fn state_space(&self) -> String {
+    fn state_space(&self, written: &[Written]) -> String {
         let (scalar, n) = (&self.scalar, self.dof);
         let mut text = String::new();
         for type_ in self.types() {
@@ -306,6 +350,9 @@ impl<'m, 'g> Emitter<'m, 'g> {
                 "        #[inline]\n        fn integrate(&self, q: &SVector<{scalar}, {n}>, delta: &SVector<{scalar}, {n}>) \
                  -> SVector<{scalar}, {n}> {{\n            q + delta\n        }}\n    }}\n\n"
             );
+            if !self.has_derivatives(written) {
+                continue;
+            }
             text.push_str(
                 &self.open(&format!("StateSpaceModel<{scalar}, {n}, {n}, {}, {n}>", 2 * n), &type_),
             );
@@ -376,6 +423,18 @@ impl<'m, 'g> Emitter<'m, 'g> {
 pub(super) fn frames_module(robot: &str) -> String {
     crate::model::names::snake_case(robot) + "_frames"
 }
+
+/// The constants of the trait `Mechanism`.
+const CONSTANTS: [(&str, &str); 8] = [
+    ("NQ", "usize"),
+    ("NV", "usize"),
+    ("NU", "usize"),
+    ("NAME", "&'static str"),
+    ("JOINT_NAMES", "&'static [&'static str]"),
+    ("BODY_NAMES", "&'static [&'static str]"),
+    ("LIMITS", "&'static [JointLimits]"),
+    ("COST", "Costs"),
+];
 
 /// Type names that a glob import must not bring in: they would hide the standard ones.
 const HIDDEN_BY_A_GLOB: &[&str] = &[

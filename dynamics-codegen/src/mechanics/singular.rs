@@ -1,0 +1,71 @@
+//! Motions that move no mass: a mass matrix that is singular in every configuration.
+//!
+//! It is factored in doubles at a few states and the parameters' sample values. A robot whose joints cancel each
+//! other has a pivot that is nothing but rounding at all of them; one that is singular at some states only has not.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::factor::Factor;
+use super::plain::Oracle;
+use crate::model::Model;
+use crate::symbolic::{Evaluator, Graph, SymbolId};
+
+/// A pivot below this part of its diagonal entry is what rounding left of zero.
+const NOTHING: f64 = 1e-13;
+/// The share of a joint in the motion, relative to the largest, from which on it takes part.
+const SHARE: f64 = 1e-6;
+/// Above this size a robot is not judged: the matrix is dense here.
+const MOST_JOINTS: usize = 128;
+
+/// The joints, in order, that can move together without moving any mass, whatever the configuration.
+pub fn idle_motion(model: &Model<'_>, graph: &Graph) -> Option<Vec<usize>> {
+    let n = model.tree.dof();
+    if n > MOST_JOINTS {
+        return None;
+    }
+    let sample = |symbol: SymbolId| model.parameters[symbol.0 as usize].sample;
+    let mut evaluator = Evaluator::new(graph, sample);
+    let tree = model.tree.map(|expr| evaluator.value(expr));
+    let parents: Vec<Option<usize>> = tree.links.iter().map(|link| link.parent).collect();
+    let motion_at = |state: usize| {
+        // Irrational steps: no angle is like another, and none is a right one.
+        let q: Vec<f64> = (0..n).map(|k| (0.7 + 1.618_034 * (state * n + k) as f64) % 3.0).collect();
+        idle_motion_of(&Oracle::new(&tree).mass_matrix(&q), &parents)
+    };
+    let first = motion_at(0)?;
+    (1..3).all(|state| motion_at(state).is_some()).then_some(first)
+}
+
+/// The joints of a motion with `M·v = 0`, if there is one.
+fn idle_motion_of(M: &Vec<Vec<f64>>, parents: &[Option<usize>]) -> Option<Vec<usize>> {
+    if !M.iter().flatten().all(|entry| entry.is_finite()) {
+        return None;
+    }
+    let factor = Factor::of(M, parents.to_vec());
+    let is_nothing = |&k: &usize| (1.0 / (factor.inverse_D[k] * M[k][k])).abs() <= NOTHING;
+    let idle = (0..M.len()).rev().find(is_nothing)?;
+    // `L·v` is one at the idle pivot and zero elsewhere.
+    let mut v = vec![0.0_f64; M.len()];
+    v[idle] = 1.0;
+    for i in idle + 1..M.len() {
+        let mut ancestor = parents[i];
+        while let Some(j) = ancestor {
+            v[i] -= factor.L[i][j] * v[j];
+            ancestor = parents[j];
+        }
+    }
+    let largest = v.iter().fold(0.0, |largest: f64, share| largest.max(share.abs()));
+    Some((0..v.len()).filter(|&k| v[k].abs() > SHARE * largest).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::idle_motion_of;
+
+    #[test]
+    fn joints_on_one_axis_cancel_each_other() {
+        let M = vec![vec![3.0, 2.0, 2.0], vec![2.0, 2.0, 2.0], vec![2.0, 2.0, 2.0]];
+        assert_eq!(idle_motion_of(&M, &[None, Some(0), Some(1)]), Some(vec![1, 2]));
+        let M = vec![vec![3.0, 0.0], vec![0.0, 1e-9]];
+        assert_eq!(idle_motion_of(&M, &[None, Some(0)]), None);
+    }
+}
