@@ -1,11 +1,11 @@
 //! The compiler behind `dynamics-core`: a robot's specification in, its specialised equations of motion out.
 //!
 //! ```text
-//! tokens ─► RobotSpec ─► Model ─► Equations ─► Program ─► text
+//! tokens ─► RobotSpec ─► Model ─► Equation ─► Program ─► text
 //!         spec        model    mechanics    passes     emit
 //! ```
 //!
-//! An ordinary library: the derive macro of `dynamics-macros` is one call of [`derive`], and tests, build
+//! An ordinary library: the derive macro of `dynamics-macros` is one call of [`derive()`], and tests, build
 //! scripts and command lines may make the same one. It does no input or output, depends on no clock and no
 //! hash order, and never panics on any input: a panic is a bug of this crate.
 

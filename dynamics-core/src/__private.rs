@@ -1,5 +1,6 @@
 //! What generated code needs, under names no user can shadow. Not part of the public interface.
 
+pub mod recursion;
 pub mod solve;
 
 pub use nalgebra::{ArrayStorage, SMatrix, SVector};
@@ -10,7 +11,7 @@ pub use crate::dynamics::{
 pub use crate::error::Error;
 pub use crate::kinematics::{Frame, Kinematics, Pose};
 pub use crate::linearize::{Linearization, StateSpaceModel};
-pub use crate::mechanism::{Cost, Costs, JointLimits, Mechanism};
+pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
 pub use solve::{factor, forward_from_inverse, solve_columns};

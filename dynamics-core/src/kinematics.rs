@@ -7,7 +7,7 @@ use core::ops::Mul;
 
 use nalgebra::{SMatrix, SVector};
 
-use crate::mechanism::Mechanism;
+use crate::mechanism::{FrameCosts, Mechanism};
 use crate::product::product;
 use crate::scalar::Scalar;
 
@@ -17,6 +17,9 @@ use crate::scalar::Scalar;
 pub trait Frame<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
     /// The name of the body or frame in the robot's specification.
     const NAME: &'static str;
+
+    /// What the methods cost; on a robot with parameters, after `prepare`.
+    const COST: FrameCosts = FrameCosts::ZERO;
 
     /// The pose of the frame in the world.
     fn pose(robot: &R, q: &SVector<T, NQ>) -> Pose<T>;

@@ -64,7 +64,7 @@ pub use dynamics::{
 pub use error::Error;
 pub use kinematics::{Frame, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
-pub use mechanism::{Cost, Costs, JointLimits, Mechanism};
+pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use scalar::Scalar;
 pub use simulate::{Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation};
 pub use state::{Configuration, State};
@@ -73,9 +73,9 @@ pub use state::{Configuration, State};
 pub mod prelude {
     pub use crate::{
         Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy, EquationsOfMotion, Error,
-        ForwardDynamicsDerivatives, Frame, Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics,
-        Linearization, Mechanism, Pose, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation, State,
-        StateSpaceModel,
+        ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator, InverseDynamicsDerivatives, JointLimits,
+        Kinematics, Linearization, Mechanism, Pose, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation,
+        State, StateSpaceModel,
     };
     pub use nalgebra::{SMatrix, SVector};
 }

@@ -142,6 +142,22 @@ impl Costs {
     };
 }
 
+/// The operations of the methods of a [`Frame`](crate::Frame).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct FrameCosts {
+    /// Of `pose`.
+    pub pose: Cost,
+    /// Of `jacobian`.
+    pub jacobian: Cost,
+    /// Of `world_jacobian`.
+    pub world_jacobian: Cost,
+}
+
+impl FrameCosts {
+    /// No operations.
+    pub const ZERO: Self = Self { pose: Cost::ZERO, jacobian: Cost::ZERO, world_jacobian: Cost::ZERO };
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -14,7 +14,7 @@ pub mod zoo;
 
 pub use dual::Dual;
 pub use random::{Random, State};
-pub use robot::{Forms, Frames, Method, Robot, Specialised, frame};
+pub use robot::{Forms, Frames, Method, Robot, Run, Specialised, frame};
 
 /// A matrix of any size.
 pub type Matrix<T = f64> = nalgebra::DMatrix<T>;

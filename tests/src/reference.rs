@@ -93,5 +93,5 @@ fn vector(value: &Value) -> Vector {
 fn matrix(value: &Value) -> Matrix {
     let rows = list(value);
     let columns = list(&rows[0]).len();
-    Matrix::from_row_iterator(rows.len(), columns, rows.iter().flat_map(|row| list(row)).map(number))
+    Matrix::from_row_iterator(rows.len(), columns, rows.iter().flat_map(list).map(number))
 }

@@ -5,7 +5,7 @@ use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
 use dynamics_codegen::mechanics::lagrange::{self, Coordinates, Lagrange};
 use dynamics_codegen::mechanics::plain::Oracle;
 use dynamics_codegen::model::{self, Model, Tree};
-use dynamics_codegen::passes::{self, Compiled};
+use dynamics_codegen::passes::{self, Compiled, Plan};
 use dynamics_codegen::spec;
 use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
 
@@ -65,7 +65,7 @@ impl<'g> Roads<'g> {
 
     /// The programs that the derive would write, to be run here.
     pub fn interpreter(&self) -> Interpreter<'_, 'g> {
-        let methods = passes::methods(None, self.model.tree.frames.len());
+        let methods = passes::methods(None, &self.model);
         let compiled = passes::compile(&self.model, self.graph, &methods);
         let read = |input| match input {
             Input::Parameter(k) => self.parameters[k],
@@ -89,12 +89,9 @@ pub struct Interpreter<'r, 'g> {
 }
 
 impl Interpreter<'_, '_> {
-    /// The results of a method's program, matrices by rows, one block after the other.
-    ///
-    /// # Panics
-    ///
-    /// If the robot has no such method.
-    pub fn run(&self, method: Method, state: &State) -> Vec<f64> {
+    /// The results of a method's program, matrices by rows, one block after the other; `None` if the method has no
+    /// program of its own and is left to the run time's loops.
+    pub fn run(&self, method: Method, state: &State) -> Option<Vec<f64>> {
         let read = |input| match input {
             Input::Parameter(k) => self.roads.parameters[k],
             Input::Argument(Argument::Q, k) => state.q[k],
@@ -102,11 +99,11 @@ impl Interpreter<'_, '_> {
             Input::Argument(Argument::A, k) => state.a[k],
             Input::Argument(Argument::Tau, k) => state.tau[k],
         };
-        let mut equations = self.compiled.equations.equations.iter().zip(&self.compiled.programs);
-        let (_, program) = equations
-            .find(|(equation, _)| equation.method == method)
-            .unwrap_or_else(|| panic!("no program for {method:?}"));
-        program.evaluate(read, &self.fields)
+        let compiled = self.compiled.methods.iter().find(|compiled| compiled.method == method)?;
+        match &compiled.plan {
+            Plan::StraightLine { program, .. } => Some(program.evaluate(read, &self.fields)),
+            Plan::FromInverse { .. } => None,
+        }
     }
 }
 

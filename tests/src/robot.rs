@@ -14,6 +14,17 @@ pub enum Method {
     SemiImplicitEuler,
 }
 
+/// What a simulation went through.
+#[derive(Clone, Debug)]
+pub struct Run<T> {
+    /// The total energy before the first and after each step, J.
+    pub energies: Vec<T>,
+    /// The last coordinates.
+    pub q: Vector<T>,
+    /// The last speeds.
+    pub v: Vector<T>,
+}
+
 /// Everything a compiled robot can be asked, in vectors and matrices of any size.
 pub trait Robot<T: Scalar> {
     /// `M(q)`
@@ -57,8 +68,7 @@ pub trait Robot<T: Scalar> {
     fn jacobian(&self, frame: usize, q: &Vector<T>) -> Matrix<T>;
     /// The Jacobian of a frame in world axes.
     fn world_jacobian(&self, frame: usize, q: &Vector<T>) -> Matrix<T>;
-    /// Time and total energy before the first and after each of `count` unforced steps of `step` seconds, and the
-    /// last state.
+    /// `count` unforced steps of `step` seconds.
     ///
     /// # Errors
     ///
@@ -69,7 +79,7 @@ pub trait Robot<T: Scalar> {
         step: T,
         count: usize,
         by: Method,
-    ) -> Result<(Vec<T>, Vector<T>, Vector<T>), Error>;
+    ) -> Result<Run<T>, Error>;
     /// Calls every method of the traits once, and `count` steps of each integrator, on the stack alone.
     ///
     /// # Errors
@@ -92,7 +102,7 @@ pub struct Frames<R, T, const N: usize> {
 /// The functions of the frame `F`.
 pub fn frame<F: Frame<R, T, N, N>, R, T: Scalar, const N: usize>() -> Frames<R, T, N>
 where
-    R: Dynamics<T, N, N>,
+    R: Mechanism,
 {
     Frames {
         name: F::NAME,
@@ -217,7 +227,7 @@ where
         step: T,
         count: usize,
         by: Method,
-    ) -> Result<(Vec<T>, Vector<T>, Vector<T>), Error> {
+    ) -> Result<Run<T>, Error> {
         let from = state::State::new(fixed(q), fixed(v));
         let simulation = Simulation::new(&self.robot, from, step)?;
         match by {
@@ -259,7 +269,7 @@ where
 fn run<R, T, I, U, const N: usize>(
     mut simulation: Simulation<'_, R, T, N, N, I, U>,
     count: usize,
-) -> Result<(Vec<T>, Vector<T>, Vector<T>), Error>
+) -> Result<Run<T>, Error>
 where
     R: Dynamics<T, N, N> + Configuration<T, N, N>,
     T: Scalar,
@@ -271,7 +281,7 @@ where
         energies.push(sample?.energy().total());
     }
     let state::State { q, v } = *simulation.state();
-    Ok((energies, vector(q), vector(v)))
+    Ok(Run { energies, q: vector(q), v: vector(v) })
 }
 
 /// A robot, and the same after `prepare`.

@@ -48,7 +48,15 @@ fn compiled_rust_computes_what_the_interpreted_programs_compute() {
             let State { q, v, a, tau } = state;
             let force = unit_force(robot, q);
             let close = |method: Method, found: &[f64], tolerance: f64, floor: f64| {
-                let expected = interpreter.run(method, state);
+                let Some(expected) = interpreter.run(method, state) else {
+                    assert_eq!(
+                        method,
+                        Method::ForwardDynamicsDerivatives,
+                        "{}: the one with loops",
+                        entry.name
+                    );
+                    return;
+                };
                 assert_close!(found, expected, tolerance, floor = floor, "{}: {}", entry.name, method.name());
             };
             close(Method::MassMatrix, &rows(&robot.mass_matrix(q)), SAME_PROGRAM, 0.0);

@@ -7,12 +7,13 @@ use dynamics_tests::close::ROUNDING;
 use dynamics_tests::zoo::fixtures::lift;
 use dynamics_tests::zoo::textbook::{any_toss, double_pendulum, pendulum, tossed_box};
 use dynamics_tests::zoo::{self, Entry};
-use dynamics_tests::{Forms, Robot, State, Vector, assert_close};
+use dynamics_tests::{Forms, Robot, Run, State, Vector, assert_close};
 
 /// The energy that comes and goes in a motion: of the first sample's size, or more where V is.
 fn drift(robot: &dyn Robot<f64>, q: &Vector, v: &Vector, step: f64, seconds: f64, by: Method) -> f64 {
     let count = (seconds / step).round() as usize;
-    let (energies, _, _) = robot.simulate((q, v), step, count, by).expect("an unforced robot stays finite");
+    let Run { energies, .. } =
+        robot.simulate((q, v), step, count, by).expect("an unforced robot stays finite");
     let size = robot.kinetic_energy(q, v).abs() + robot.gravity_forces(q).amax();
     energies.iter().map(|energy| (energy - energies[0]).abs()).fold(0.0, f64::max) / size
 }
@@ -38,16 +39,17 @@ fn every_robot_conserves_its_energy() {
 #[test]
 fn halving_the_step_divides_the_error_by_the_order() {
     let Forms { robot, .. } = double_pendulum::entry().double.expect("it is generic");
-    let (q, v) = (Vector::from_column_slice(&[1.2, -0.7]), Vector::from_column_slice(&[0.5, 1.5]));
+    let (q, v) = (Vector::from_column_slice(&[0.4, 0.3]), Vector::from_column_slice(&[0.5, 1.5]));
     let end = |step: f64, by| {
         let count = (1.0 / step).round() as usize;
-        robot.simulate((&q, &v), step, count, by).expect("it stays finite").1
+        robot.simulate((&q, &v), step, count, by).expect("it stays finite").q
     };
-    let exact = end(1e-4, Rk4);
+    let exact = end(1.25e-4, Rk4);
     for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0)] {
         let error = |step| (end(step, by) - &exact).amax();
-        let found = (error(step) / error(step / 2.0)).log2();
-        assert!((found - order).abs() < 0.15, "{by:?} has order {found:.2}");
+        // Over three halvings, from a start where the next order is small: elsewhere it hides this one.
+        let found = (error(step) / error(step / 8.0)).log2() / 3.0;
+        assert!((found - order).abs() < 0.1, "{by:?} has order {found:.2}");
     }
 }
 
@@ -80,11 +82,11 @@ fn momentum_about_a_vertical_first_axis_is_conserved() {
     for (entry, Forms { robot, .. }) in zoo::in_double().filter(|(entry, _)| vertical.contains(&entry.name)) {
         let (q, v) = start(&entry);
         let momentum = |q: &Vector, v: &Vector| (robot.mass_matrix(q) * v)[0];
-        let (_, q_end, v_end) = robot.simulate((&q, &v), 5e-4, 200, Rk4).expect("it stays finite");
+        let end = robot.simulate((&q, &v), 5e-4, 200, Rk4).expect("it stays finite");
         let size = (robot.mass_matrix(&q).abs() * v.abs())[0];
-        let change = (momentum(&q_end, &v_end) - momentum(&q, &v)).abs() / size;
+        let change = (momentum(&end.q, &end.v) - momentum(&q, &v)).abs() / size;
         assert!(change < 1e-7, "{}: momentum changes by {change:.1e}", entry.name);
-        assert!((q_end - &q).amax() > 1e-3, "{} has not moved", entry.name);
+        assert!((end.q - &q).amax() > 1e-3, "{} has not moved", entry.name);
     }
 }
 

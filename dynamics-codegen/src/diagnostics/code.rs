@@ -73,7 +73,7 @@ catalogue! {
     // Names
     /// The name was given before.
     NameDuplicate => "give each joint and each body a name of its own",
-    /// Two names become the same Rust identifier.
+    /// Two bodies become the same Rust type.
     NamesCollide => "choose names that differ in more than case and underscores",
     /// The name cannot be used.
     NameReserved => "choose another name",

@@ -39,6 +39,97 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
+/// The type of a frame: `tool0` is `Tool0`. What would hide a common name, or the robot's own, is `BoxFrame`.
+pub fn frame_type(frame: &str, robot: &str) -> String {
+    let name = upper_camel_case(frame);
+    let is_robots = name == robot || name.strip_suffix("Prepared") == Some(robot);
+    if is_robots || hides_a_common_name(&name) { name + "Frame" } else { name }
+}
+
+/// Whether a type of this name hides one of the standard prelude's or of the run time's.
+pub fn hides_a_common_name(name: &str) -> bool {
+    COMMON.contains(&name)
+}
+
+const COMMON: &[&str] = &[
+    // Rust
+    "Self",
+    "Box",
+    "Option",
+    "Some",
+    "None",
+    "Result",
+    "Ok",
+    "Err",
+    "String",
+    "ToString",
+    "ToOwned",
+    "Vec",
+    "Copy",
+    "Clone",
+    "Drop",
+    "Send",
+    "Sync",
+    "Sized",
+    "Unpin",
+    "Fn",
+    "FnMut",
+    "FnOnce",
+    "AsyncFn",
+    "AsyncFnMut",
+    "AsyncFnOnce",
+    "Iterator",
+    "IntoIterator",
+    "FromIterator",
+    "DoubleEndedIterator",
+    "ExactSizeIterator",
+    "Extend",
+    "Into",
+    "From",
+    "TryInto",
+    "TryFrom",
+    "AsRef",
+    "AsMut",
+    "Default",
+    "Eq",
+    "Ord",
+    "PartialEq",
+    "PartialOrd",
+    "Future",
+    "IntoFuture",
+    // The run time
+    "ArrayStorage",
+    "Configuration",
+    "Cost",
+    "Costs",
+    "Dynamics",
+    "DynamicsDerivatives",
+    "Energy",
+    "EquationsOfMotion",
+    "Error",
+    "ForwardDynamicsDerivatives",
+    "Frame",
+    "FrameCosts",
+    "Integrator",
+    "InverseDynamicsDerivatives",
+    "JointLimits",
+    "Kinematics",
+    "Linearization",
+    "Mechanism",
+    "One",
+    "Pose",
+    "Rk4",
+    "SMatrix",
+    "SVector",
+    "Sample",
+    "Scalar",
+    "SemiImplicitEuler",
+    "Simulation",
+    "State",
+    "StateSpaceModel",
+    "Zero",
+];
+
 #[cfg(test)]
 mod tests {
     use super::{snake_case, upper_camel_case};

@@ -2,7 +2,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::names::{snake_case, upper_camel_case};
+use super::names::frame_type;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 use crate::spec::{JointKind, JointSpec, Name, RobotSpec};
 
@@ -115,7 +115,7 @@ fn carriers<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> FxHashMap<&'s s
 
 /// Names given twice, names that cannot be used, and names that become the same identifier.
 fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
-    distinct("joint", spec.joints.iter().map(|joint| &joint.name), diags);
+    distinct_names("joint", spec.joints.iter().map(|joint| &joint.name), diags);
     let mut bodies: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).collect();
     distinct_names("body", bodies.iter().map(|(_, name)| *name), diags);
     let described: FxHashMap<_, _> = bodies.iter().map(|(_, name)| (name.text.as_str(), ())).collect();
@@ -123,12 +123,7 @@ fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
     let frames = frames.filter(|(_, name)| name.text != WORLD && !described.contains_key(&*name.text));
     bodies.extend(frames);
     bodies.sort_by_key(|(line, _)| *line);
-    distinct_identifiers("body", bodies.into_iter().map(|(_, name)| name), diags);
-}
-
-fn distinct<'s>(what: &str, names: impl Iterator<Item = &'s Name> + Clone, diags: &mut Diagnostics) {
-    distinct_names(what, names.clone(), diags);
-    distinct_identifiers(what, names, diags);
+    distinct_types(bodies.into_iter().map(|(_, name)| name), &spec.ident.to_string(), diags);
 }
 
 fn distinct_names<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
@@ -140,19 +135,22 @@ fn distinct_names<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: 
     }
 }
 
-fn distinct_identifiers<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
+/// Bodies become types. Joints keep their names: nothing in Rust is called after them.
+fn distinct_types<'s>(names: impl Iterator<Item = &'s Name>, robot: &str, diags: &mut Diagnostics) {
     let mut seen: FxHashMap<String, &str> = FxHashMap::default();
     for name in names {
-        let identifier = upper_camel_case(&name.text);
-        let reserved = matches!(identifier.as_str(), "" | "Self") || name.text == WORLD;
-        if reserved || !identifier.starts_with(|c: char| c.is_alphabetic()) {
-            diags.error(Code::NameReserved, &name.place, format!("`{name}` cannot be the name of a {what}"));
+        let type_ = frame_type(&name.text, robot);
+        if name.text == WORLD || syn::parse_str::<syn::Ident>(&type_).is_err() {
+            let message = match name.text.as_str() {
+                WORLD => "`world` is where every robot stands, and cannot be described".to_owned(),
+                _ => format!("the body `{name}` would be the type `{type_}`, which is no name of Rust"),
+            };
+            diags.error(Code::NameReserved, &name.place, message);
             continue;
         }
-        let first = *seen.entry(identifier.clone()).or_insert(&name.text);
+        let first = *seen.entry(type_.clone()).or_insert(&name.text);
         if first != name.text {
-            let snake = snake_case(&name.text);
-            let message = format!("`{first}` and `{name}` both become `{identifier}`, `{snake}` in Rust");
+            let message = format!("the bodies `{first}` and `{name}` would both be the type `{type_}`");
             diags.error(Code::NamesCollide, &name.place, message);
         }
     }

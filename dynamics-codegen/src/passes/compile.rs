@@ -1,7 +1,9 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
 use super::parameters::Normaliser;
+use super::plan::{Form, Plan, Plans};
 use super::share::share;
+use super::table;
 use super::{Companion, Cost, Operand, Program, Source};
 use crate::mechanics::equations::{Block, Derivation, Equation, Inputs, Method};
 use crate::model::Model;
@@ -17,6 +19,8 @@ pub struct Compiled<'g> {
     pub companion: Companion<'g>,
     /// How the companion's fields are computed.
     pub preparation: Program,
+    /// The entries of the table of links, for methods too large for straight lines.
+    pub table: Option<Program>,
     /// The methods, in order.
     pub methods: Vec<CompiledMethod<'g>>,
 }
@@ -26,9 +30,9 @@ impl Compiled<'_> {
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
             Plan::StraightLine { program, .. } => Some(program),
-            Plan::FromInverse { .. } => None,
+            Plan::FromInverse { .. } | Plan::Table { .. } => None,
         });
-        std::iter::once(&self.preparation).chain(of_methods)
+        std::iter::once(&self.preparation).chain(&self.table).chain(of_methods)
     }
 }
 
@@ -42,75 +46,50 @@ pub struct CompiledMethod<'g> {
     pub cost: Cost,
 }
 
-/// How a method is computed.
-pub enum Plan<'g> {
-    /// By a program of its own.
-    StraightLine {
-        /// What it returns, simplified.
-        blocks: Vec<Block<'g>>,
-        /// The operations.
-        program: Program,
-    },
-    /// Derivatives of forward dynamics from those of inverse dynamics, by the run time's loops over columns.
-    FromInverse {
-        /// The joints between each joint and the base.
-        ancestors: Vec<Vec<usize>>,
-    },
-}
-
-/// The largest robot whose many right-hand sides are solved in a straight line.
-const LARGEST_STRAIGHT_SOLVE: usize = 7;
-
-/// The methods to compile: those named and what they call, or all.
-pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
-    let frames = 0..model.tree.frames.len();
-    let of_frames = frames.flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
-    let by_parts = model.tree.dof() > LARGEST_STRAIGHT_SOLVE;
-    // A frame has all of its kinematics or none.
-    let of_frame = ["pose", "jacobian", "world_jacobian"];
-    let is_wanted = |method: Method| {
-        let names = if of_frame.contains(&method.name()) { &of_frame[..] } else { &[method.name()] };
-        wanted.is_none_or(|wanted| wanted.iter().any(|name| names.contains(name)))
-    };
-    let is_called = |method: &Method| {
-        is_wanted(*method)
-            || (by_parts
-                && matches!(method, Method::ForwardDynamics | Method::InverseDynamicsDerivatives)
-                && is_wanted(Method::ForwardDynamicsDerivatives))
-    };
-    Method::OF_ROBOT.into_iter().chain(of_frames).filter(is_called).collect()
-}
-
 /// Compiles `methods` of `model`.
 pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> Compiled<'g> {
     let derivation = Derivation::of(model, graph);
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
-    let by_parts = derivation.inputs.dof > LARGEST_STRAIGHT_SOLVE;
-    let in_parts = |method: Method| by_parts && method == Method::ForwardDynamicsDerivatives;
-    let straight = methods.iter().copied().filter(|&method| !in_parts(method));
+    let plan = Plans::of(model);
+    let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
     let equations: Vec<Equation<'g>> =
         straight.map(|method| Equation { method, blocks: cheapest(&derivation, method) }).collect();
-    let companion = Companion::of(graph, &equations);
+    let table = methods.iter().any(|&method| plan.form(method) == Form::Table).then(|| table::entries(model));
+    let companion = Companion::of(graph, &equations, table.as_deref().unwrap_or_default());
     let inputs = derivation.inputs;
+    let program_of = |results: &[Expr<'g>]| Program::of(graph, inputs, results, |node| companion.read(node));
+    let mut equations = equations.into_iter();
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
-    for Equation { method, blocks } in equations {
-        let program = Program::of(graph, inputs, &entries(&blocks), |node| companion.read(node));
-        let cost = program.cost();
-        compiled.push(CompiledMethod { method, cost, plan: Plan::StraightLine { blocks, program } });
+    for &method in methods {
+        let (plan, cost) = match plan.form(method) {
+            Form::StraightLine => {
+                let blocks = equations.next().map(|equation| equation.blocks).unwrap_or_default();
+                let program = program_of(&entries(&blocks));
+                let cost = program.cost();
+                (Plan::StraightLine { blocks, program }, cost)
+            }
+            Form::FromInverse => {
+                let ancestors = plan.ancestors.clone();
+                let cost = cost_from_inverse(&ancestors, &compiled);
+                (Plan::FromInverse { ancestors }, cost)
+            }
+            Form::Table => {
+                let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));
+                (Plan::Table { frame }, plan.cost_of_table(method))
+            }
+        };
+        compiled.push(CompiledMethod { method, cost, plan });
     }
-    if methods.iter().any(|&method| in_parts(method)) {
-        let ancestors = ancestors(model);
-        let cost = cost_from_inverse(&ancestors, &compiled);
-        let method = Method::ForwardDynamicsDerivatives;
-        compiled.push(CompiledMethod { method, cost, plan: Plan::FromInverse { ancestors } });
+    let table = table.map(|entries| program_of(&entries));
+    Compiled {
+        graph,
+        inputs,
+        preparation: companion.program(graph, inputs),
+        table,
+        methods: compiled,
+        companion,
     }
-    Compiled { graph, inputs, preparation: companion.program(graph, inputs), companion, methods: compiled }
-}
-
-fn ancestors(model: &Model<'_>) -> Vec<Vec<usize>> {
-    let parent = |k: usize| model.tree.links[k].parent;
-    (0..model.tree.dof()).map(|k| std::iter::successors(parent(k), |&k| parent(k)).collect()).collect()
 }
 
 /// What the loops of the run time cost, with the two methods that they call.

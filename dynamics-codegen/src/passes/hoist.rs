@@ -17,11 +17,11 @@ pub struct Companion<'g> {
 }
 
 impl<'g> Companion<'g> {
-    /// Finds what the equations need of parameter-only work.
-    pub fn of(graph: &'g Graph, equations: &[Equation<'g>]) -> Self {
+    /// Finds what the equations and the table of links need of parameter-only work.
+    pub fn of(graph: &'g Graph, equations: &[Equation<'g>], table: &[Expr<'g>]) -> Self {
         let mut companion = Self { fields: Vec::new(), reads: FxHashMap::default() };
         let mut normaliser = Normaliser::new(graph);
-        for id in hoisted_nodes(graph, equations) {
+        for id in hoisted_nodes(graph, equations, table) {
             let value = normaliser.normalise(Expr::of_node(graph, id));
             let operand = companion.operand(graph, value);
             companion.reads.insert(id, operand);
@@ -57,23 +57,22 @@ impl<'g> Companion<'g> {
 }
 
 /// The outermost parameter-only nodes, in the order in which the equations read them.
-fn hoisted_nodes(graph: &Graph, equations: &[Equation<'_>]) -> Vec<NodeId> {
+fn hoisted_nodes(graph: &Graph, equations: &[Equation<'_>], table: &[Expr<'_>]) -> Vec<NodeId> {
     let mut seen = vec![false; graph.len()];
     let mut found = Vec::new();
-    for block in equations.iter().flat_map(|equation| &equation.blocks) {
-        for entry in &block.entries {
-            let Expr::Node { id, .. } = *entry else { continue };
-            let mut stack = vec![id];
-            while let Some(id) = stack.pop() {
-                if std::mem::replace(&mut seen[id.index()], true) {
-                    continue;
-                }
-                if graph.is_parameter_only(id) {
-                    found.push(id);
-                } else {
-                    let needed = |x: &NodeId| !matches!(graph.op(*x), Op::Constant(_));
-                    stack.extend(graph.op(id).operands().into_iter().flatten().filter(needed));
-                }
+    let blocks = equations.iter().flat_map(|equation| &equation.blocks);
+    for entry in blocks.flat_map(|block| &block.entries).chain(table) {
+        let Expr::Node { id, .. } = *entry else { continue };
+        let mut stack = vec![id];
+        while let Some(id) = stack.pop() {
+            if std::mem::replace(&mut seen[id.index()], true) {
+                continue;
+            }
+            if graph.is_parameter_only(id) {
+                found.push(id);
+            } else {
+                let needed = |x: &NodeId| !matches!(graph.op(*x), Op::Constant(_));
+                stack.extend(graph.op(id).operands().into_iter().flatten().filter(needed));
             }
         }
     }

@@ -3,13 +3,17 @@
 mod compile;
 mod hoist;
 mod parameters;
+mod plan;
 mod program;
 mod share;
 mod signs;
+mod table;
 mod verify;
 
-pub use compile::{Compiled, CompiledMethod, Plan, compile, entries, methods};
+pub use compile::{Compiled, CompiledMethod, compile, entries};
 pub use hoist::Companion;
+pub use plan::{Plan, methods};
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
 pub use share::share;
+pub use table::NUMBERS_PER_LINK;
 pub use verify::{Disagreement, disagreements};

@@ -45,8 +45,8 @@ struct Flattened<'g> {
     atoms: FxHashMap<NodeId, Atom>,
     /// Atoms that are computed otherwise: quotients, roots, sines.
     opaque: FxHashSet<NodeId>,
-    /// How often results and opaque operations read an atom: those keep their own value.
-    pinned: FxHashMap<Atom, usize>,
+    /// The atoms that results and opaque operations read: those keep their own value.
+    pinned: Vec<Atom>,
 }
 
 impl<'g> Flattened<'g> {
@@ -58,7 +58,7 @@ impl<'g> Flattened<'g> {
             nodes: Vec::new(),
             atoms: FxHashMap::default(),
             opaque: FxHashSet::default(),
-            pinned: FxHashMap::default(),
+            pinned: Vec::new(),
         };
         let mut waiting: Vec<NodeId> = Vec::new();
         for result in results {
@@ -102,7 +102,7 @@ impl<'g> Flattened<'g> {
 
     fn pin(&mut self, id: NodeId, waiting: &mut Vec<NodeId>) {
         let atom = self.atom(id);
-        *self.pinned.entry(atom).or_insert(0) += 1;
+        self.pinned.push(atom);
         waiting.push(id);
     }
 
@@ -164,8 +164,8 @@ impl<'g> Flattened<'g> {
     fn merge_single_uses(&mut self) {
         loop {
             let mut uses = self.definitions.count_uses();
-            for (atom, count) in &self.pinned {
-                *uses.entry(*atom).or_insert(0) += 2 * count;
+            for atom in &self.pinned {
+                *uses.entry(*atom).or_insert(0) += 2;
             }
             let mut changed = false;
             for atom in self.definitions.order() {

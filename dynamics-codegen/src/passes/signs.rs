@@ -45,8 +45,10 @@ fn apply(program: &mut Program, flips: &[bool]) {
     }
 }
 
-/// From the last step to the first: a step that is only read negated is turned round, if it can be.
+/// From the last step to the first: a result has the sign it is returned with, and a step that is only read
+/// negated is turned round, if it can be.
 fn turn_unwanted(program: &mut Program) {
+    let returned_negative = returned_negative(program);
     let mut readings = vec![(0_usize, 0_usize); program.steps.len()];
     let note = |readings: &mut Vec<(usize, usize)>, operand: Operand| {
         if let Source::Step(k) = operand.source {
@@ -60,12 +62,14 @@ fn turn_unwanted(program: &mut Program) {
     let mut flips = vec![false; program.steps.len()];
     for k in (0..program.steps.len()).rev() {
         let operation = program.steps[k].operation;
-        let (plus, minus) = readings[k];
-        if plus == 0 && minus > 0 {
-            if let Some(other) = turned_round(program, operation, &readings) {
-                flips[k] = true;
-                program.steps[k].operation = other;
-            }
+        let free = match (returned_negative[k], readings[k]) {
+            (Some(true), _) | (None, (0, 1..)) => turned_round(program, operation, &readings),
+            _ => None,
+        };
+        let forced = (returned_negative[k] == Some(true)).then(|| turned(operation, true));
+        if let Some(other) = free.or(forced).filter(|other| *other != operation) {
+            flips[k] = true;
+            program.steps[k].operation = other;
         }
         for operand in program.steps[k].operation.operands() {
             note(&mut readings, operand);
@@ -76,14 +80,22 @@ fn turn_unwanted(program: &mut Program) {
         ..operand
     };
     for step in &mut program.steps {
-        step.operation = mapped(step.operation, settled);
+        step.operation = turned(mapped(step.operation, settled), false);
     }
     for result in &mut program.results {
         *result = settled(*result);
     }
-    for step in &mut program.steps {
-        step.operation = turned(step.operation, false);
+}
+
+/// For each step that is a result, whether it is returned negated where it is returned first.
+fn returned_negative(program: &Program) -> Vec<Option<bool>> {
+    let mut signs = vec![None; program.steps.len()];
+    for result in &program.results {
+        if let Source::Step(k) = result.source {
+            signs[k].get_or_insert(result.negative);
+        }
     }
+    signs
 }
 
 /// The negative of an operation, if that takes no further minus.

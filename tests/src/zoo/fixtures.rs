@@ -18,6 +18,7 @@ pub fn all() -> Vec<Entry> {
         unsnapped::entry(),
         torso::entry(),
         tree_of_nine::entry(),
+        snake::entry(),
     ]
 }
 
@@ -218,4 +219,32 @@ robot! {
     #[joint(c_3: revolute(z), c2 -> c3, at = [0, 0.12, 0.01], rpy = [0.1, 0.1, 0.1])]
     #[body(c3, mass = 0.3, com = [0.02, 0.03, 0.01], inertia = diag(0.0006, 0.0003, 0.0006))]
     pub struct TreeOfNine;
+}
+
+robot! {
+    snake = Snake<T> { l: 0.2, m: 0.9, tail: 0.3 }, [11, 22], [S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11];
+    /// One long chain, where other methods become the cheapest: a slide, a massless link, and fields on the way.
+    #[joint(j1: revolute(z), world -> s1)]
+    #[body(s1, mass = m, com = [l / 2, 0.01, 0], inertia = diag(0.001, 0.003, 0.0035))]
+    #[joint(j2: revolute(y), s1 -> s2, at = [l, 0, 0])]
+    #[body(s2, mass = m, com = [l / 2, 0, 0.02], inertia = tensor(0.001, 0.0002, 0, 0.003, 0.0001, 0.003))]
+    #[joint(j3: revolute([1, 0, 0.5]), s2 -> s3, at = [l, 0, 0], rpy = [0, 0.3, 0])]
+    #[body(s3, mass = 0.8, com = [0.1, 0, 0], inertia = diag(0.001, 0.002, 0.002), inertia_rpy = [0.1, 0.4, 0])]
+    #[joint(j4: revolute(z), s3 -> s4, at = [l, 0.01, 0])]
+    #[body(s4)]
+    #[joint(j5: revolute(x), s4 -> s5)]
+    #[body(s5, solid = cylinder(0.7, 4cm, l, x), com = [l / 2, 0, 0.01])]
+    #[joint(j6: prismatic(x), s5 -> s6, at = [l, 0, 0], rpy = [0.2, 0, 0])]
+    #[body(s6, mass = 0.6, com = [0.05, 0.02, 0], inertia = diag(0.0008, 0.001, 0.0012))]
+    #[joint(j7: revolute(-z), s6 -> s7, at = [0.1, 0, 0])]
+    #[body(s7, solid = cuboid(0.6, [l, 5cm, 3cm]), com = [l / 2, 0, 0])]
+    #[joint(j8: revolute(y), s7 -> s8, at = [l, 0, 0], rpy = [90deg, 0, 0])]
+    #[body(s8, mass = 0.5, com = [0.08, 0.01, 0.01], inertia = diag(0.0007, 0.001, 0.0011))]
+    #[joint(j9: continuous(x), s8 -> s9, at = [0.15, 0, 0])]
+    #[body(s9, mass = 0.5, com = [0.05, 0.03, 0], inertia = tensor(0.001, 0.0001, 0, 0.001, 0, 0.0011))]
+    #[joint(j10: revolute(z), s9 -> s10, at = [0.12, 0, 0], rpy = [0, -0.4, 0.1])]
+    #[body(s10, mass = 0.4, com = [0.06, 0, 0.01], inertia = diag(0.0004, 0.0008, 0.0008))]
+    #[joint(j11: revolute([0, 1, 1]), s10 -> s11, at = [0.12, 0, 0.01])]
+    #[body(s11, mass = tail, com = [0.08, -0.01, 0.02], inertia = diag(tail * l * l / 12, 0.001, 0.0011))]
+    pub struct Snake<T> { pub l: T, pub m: T, pub tail: T }
 }

@@ -5,7 +5,7 @@
 
 use std::fmt::Write as _;
 
-use super::names::{Names, angle_suffix, component, entry};
+use super::names::{CALLED, Names, angle_suffix, component, entry};
 use crate::mechanics::equations::{Block, Input, Shape};
 use crate::passes::{Operand, Operation, Program, Source};
 use crate::symbolic::Number;
@@ -110,9 +110,8 @@ impl<'a> Writer<'a> {
     fn new(program: &'a Program, wanted: &[String], context: &'a Context<'a>) -> Self {
         let taken = if context.fields.is_empty() { context.parameters } else { context.fields };
         let mut names = Names::with_taken(taken.iter().map(String::as_str));
-        for keyword in ["q", "v", "a", "tau", "self", "robot", "madd", "sin_cos", "sqrt", "vector", "columns"]
-        {
-            names.fresh(keyword);
+        for reserved in ["q", "v", "a", "tau", "self", "robot"].iter().chain(CALLED) {
+            names.fresh(reserved);
         }
         let mut result_names = vec![None; program.steps.len()];
         for (result, name) in program.results.iter().zip(wanted) {
@@ -246,8 +245,10 @@ impl<'a> Writer<'a> {
         if !operand.negative {
             return value;
         }
-        let value = wrap(value, Binding::Negation);
-        Text { text: format!("-{}", value.text), binding: Binding::Negation, ..value }
+        // `-a * b` is `-(a * b)`.
+        let value = wrap(value, Binding::Product);
+        let binding = value.binding.min(Binding::Negation);
+        Text { text: format!("-{}", value.text), binding, ..value }
     }
 
     fn input(&mut self, input: Input) -> String {

@@ -4,10 +4,11 @@ use std::fmt::Write as _;
 
 use super::body::{self, Context, Literals};
 use super::methods::{self, Written};
-use super::names::Names;
+use super::names::{self, Names, keyword_safe};
 use super::{Form, Input, Item};
 use crate::mechanics::equations::{Input as Symbol, Method};
 use crate::model::Limits;
+use crate::model::names::{frame_type, hides_a_common_name};
 use crate::passes::Cost;
 use crate::symbolic::{Expr, Op};
 
@@ -17,14 +18,14 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     let written = emitter.methods();
     let mut text = emitter.companion_struct();
     text.push_str(&emitter.frame_types());
-    let _ = writeln!(
-        text,
-        "#[allow(unused_variables, non_snake_case, clippy::all, clippy::pedantic, reason = \"generated arithmetic\")]"
-    );
-    text.push_str("#[rustfmt::skip]\nconst _: () = {\n");
+    let _ =
+        writeln!(text, "#[allow({}, reason = \"generated arithmetic\")]", allowed("unused, non_snake_case"));
+    text.push_str("const _: () = {\n");
+    text.push_str(&emitter.alias());
     let _ = writeln!(text, "    use {}::__private::*;\n", emitter.item.core);
     for part in [
         emitter.prepare(),
+        emitter.table(),
         emitter.mechanism(&written),
         emitter.dynamics(&written),
         emitter.derivatives(&written),
@@ -33,16 +34,42 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     ] {
         text.push_str(&part);
     }
-    text.push_str("};\n");
+    text.push_str(if emitter.alias().is_empty() { "};\n" } else { "};\n};\n" });
     text
 }
 
-struct Emitter<'m, 'g> {
-    input: &'m Input<'m, 'g>,
+/// The lints that generated code is free of, whatever else it does.
+fn allowed(lints: &str) -> String {
+    format!("{lints}, clippy::all, clippy::pedantic, clippy::nursery")
+}
+
+/// A type that impls are for.
+pub(super) struct Host {
+    /// The type, with its arguments.
+    type_: String,
+    /// Its parameters with their bounds, without the scalar of a unit struct.
+    parameters: Vec<String>,
+    /// Its where-clause.
+    clause: String,
+}
+
+impl Host {
+    /// `<T: Scalar>`; nothing without parameters.
+    fn generics<'a>(&'a self, scalar: impl IntoIterator<Item = &'a String>) -> String {
+        let all: Vec<&str> = self.parameters.iter().chain(scalar).map(String::as_str).collect();
+        if all.is_empty() { String::new() } else { format!("<{}>", all.join(", ")) }
+    }
+}
+
+pub(super) struct Emitter<'m, 'g> {
+    pub(super) input: &'m Input<'m, 'g>,
     item: &'m Item,
-    dof: usize,
+    pub(super) dof: usize,
     /// The scalar's name in the impls.
-    scalar: String,
+    pub(super) scalar: String,
+    /// The bound of the scalar where it is no parameter of the robot.
+    pub(super) scalar_parameter: Option<String>,
+    /// The parameters' names in code.
     parameters: Vec<String>,
     fields: Vec<String>,
     frame_types: Vec<String>,
@@ -50,21 +77,26 @@ struct Emitter<'m, 'g> {
 
 impl<'m, 'g> Emitter<'m, 'g> {
     fn new(input: &'m Input<'m, 'g>) -> Self {
-        let parameters: Vec<String> = input.model.parameters.iter().map(|p| p.name.clone()).collect();
+        let parameters = parameter_names(input);
         let fields = field_names(input, &parameters);
         let scalar = match &input.item.form {
-            Form::Generic { parameter, .. } => parameter.clone(),
+            Form::Generic(parameter) => parameter.clone(),
             Form::Concrete(name) => (*name).to_owned(),
-            Form::Unit => "T".to_owned(),
+            Form::Unit => input.item.free_type_name("T"),
         };
+        let is_free = input.item.form == Form::Unit;
         Self {
             input,
+            scalar_parameter: is_free.then(|| format!("{scalar}: Scalar")),
             item: input.item,
             dof: input.compiled.inputs.dof,
             scalar,
             parameters,
             fields,
-            frame_types: frame_type_names(input),
+            frame_types: {
+                let frames = &input.model.tree.frames;
+                frames.iter().map(|frame| frame_type(&frame.name, &input.item.name)).collect()
+            },
         }
     }
 
@@ -73,34 +105,48 @@ impl<'m, 'g> Emitter<'m, 'g> {
         !self.fields.is_empty()
     }
 
-    fn companion_name(&self) -> String {
-        if self.is_prepared() { format!("{}Prepared", self.item.name) } else { self.item.name.clone() }
+    pub(super) fn companion_name(&self) -> String {
+        if self.is_prepared() {
+            format!("{}Prepared", self.item.bare_name())
+        } else {
+            self.robot_name().to_owned()
+        }
     }
 
-    /// `<T: Scalar>` of an impl.
-    fn impl_generics(&self) -> String {
-        match &self.item.form {
-            Form::Generic { parameter, bounds } if bounds.is_empty() => format!("<{parameter}: Scalar>"),
-            Form::Generic { parameter, bounds } => format!("<{parameter}: Scalar + {bounds}>"),
-            Form::Concrete(_) => String::new(),
-            Form::Unit => "<T: Scalar>".to_owned(),
+    /// What the robot is called inside the block: its name, or an alias where the block's imports hide that.
+    fn robot_name(&self) -> &str {
+        if hides_a_common_name(&self.item.name) { "ThisRobot" } else { &self.item.name }
+    }
+
+    /// The alias, and the beginning of a block that sees it.
+    fn alias(&self) -> String {
+        let Item { name, declared, arguments, .. } = self.item;
+        if !hides_a_common_name(name) {
+            return String::new();
         }
+        format!("    type ThisRobot{declared} = {name}{arguments};\n    const _: () = {{\n")
     }
 
     /// The robot's type.
-    fn robot(&self) -> String {
-        match &self.item.form {
-            Form::Generic { parameter, .. } => format!("{}<{parameter}>", self.item.name),
-            Form::Concrete(_) | Form::Unit => self.item.name.clone(),
-        }
+    fn robot(&self) -> Host {
+        let Item { parameters, arguments, clause, .. } = self.item;
+        let type_ = format!("{}{arguments}", self.robot_name());
+        Host { type_, parameters: parameters.clone(), clause: clause.clone() }
     }
 
     /// The type that carries the arithmetic.
-    fn prepared(&self) -> String {
-        match (&self.item.form, self.is_prepared()) {
-            (_, false) => self.robot(),
-            (Form::Generic { parameter, .. }, true) => format!("{}<{parameter}>", self.companion_name()),
-            (_, true) => self.companion_name(),
+    pub(super) fn prepared(&self) -> Host {
+        if !self.is_prepared() {
+            return self.robot();
+        }
+        let name = self.companion_name();
+        match &self.item.form {
+            Form::Generic(parameter) => Host {
+                type_: format!("{name}<{parameter}>"),
+                parameters: vec![format!("{parameter}: Scalar")],
+                clause: String::new(),
+            },
+            _ => Host { type_: name, parameters: vec![], clause: String::new() },
         }
     }
 
@@ -111,16 +157,16 @@ impl<'m, 'g> Emitter<'m, 'g> {
         }
     }
 
+    /// What a body of the companion's impls is written with.
+    pub(super) fn context<'a>(&'a self, companion: &'a str) -> Context<'a> {
+        let (fields, parameters) = (&self.fields, &self.parameters);
+        Context { companion, fields, parameters, literals: self.literals(), dof: self.dof }
+    }
+
     fn methods(&self) -> Vec<Written> {
         let companion_name = self.companion_name();
-        let context = Context {
-            companion: &companion_name,
-            fields: &self.fields,
-            parameters: &self.parameters,
-            literals: self.literals(),
-            dof: self.dof,
-        };
-        let write = |method| methods::write(method, &context, &self.scalar, &self.prepared());
+        let context = self.context(&companion_name);
+        let write = |method| methods::write(method, &context, &self.scalar, &self.prepared().type_);
         self.input.compiled.methods.iter().map(write).collect()
     }
 
@@ -130,12 +176,15 @@ impl<'m, 'g> Emitter<'m, 'g> {
         }
         let Item { name, visibility, .. } = self.item;
         let (generics, scalar) = match &self.item.form {
-            Form::Generic { parameter, .. } => (format!("<{parameter}>"), parameter.as_str()),
+            Form::Generic(parameter) => (format!("<{parameter}>"), parameter.as_str()),
             _ => (String::new(), self.scalar.as_str()),
         };
         let mut text = format!("/// [`{name}`] after all work that depends on its parameters alone.\n");
-        let _ = writeln!(text, "#[derive(Clone, Copy, Debug, PartialEq)]");
-        let _ = writeln!(text, "{visibility}struct {name}Prepared{generics} {{");
+        let _ = writeln!(text, "#[allow({}, reason = \"generated code\")]", allowed("dead_code"));
+        text.push_str(
+            "#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]\n",
+        );
+        let _ = writeln!(text, "{visibility}struct {}{generics} {{", self.companion_name());
         for field in &self.fields {
             let _ = writeln!(text, "    {field}: {scalar},");
         }
@@ -145,9 +194,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
 
     /// `prepare()`: on a robot without parameters, the robot itself.
     fn prepare(&self) -> String {
-        let (generics, robot) = (self.impl_generics(), self.robot());
-        let generics = if self.item.form == Form::Unit { String::new() } else { generics };
-        let mut text = format!("    impl{generics} {robot} {{\n");
+        let mut text = self.open_without_scalar(&self.robot(), "");
         if !self.is_prepared() {
             text.push_str(
                 "        /// The robot itself: no work depends on parameters alone.\n        #[inline]\n",
@@ -178,14 +225,16 @@ impl<'m, 'g> Emitter<'m, 'g> {
         let _ = writeln!(
             text,
             "        #[inline]\n        {visibility}fn prepare(&self) -> {} {{",
-            self.prepared()
+            self.prepared().type_
         );
-        let mut read: Vec<&str> = body
-            .inputs
-            .iter()
-            .filter(|(input, _)| matches!(input, Symbol::Parameter(_)))
-            .map(|(_, name)| name.as_str())
-            .collect();
+        let read = body.inputs.iter().filter_map(|(input, name)| match input {
+            Symbol::Parameter(k) => Some((keyword_safe(&self.input.model.parameters[*k].name), name)),
+            Symbol::Argument(..) => None,
+        });
+        let binding = |(field, name): (String, &String)| {
+            if field == *name { field } else { format!("{field}: {name}") }
+        };
+        let mut read: Vec<String> = read.map(binding).collect();
         read.sort_unstable();
         let _ = writeln!(text, "            let Self {{ {}, .. }} = *self;\n", read.join(", "));
         text.push_str(&body.statements);
@@ -204,9 +253,19 @@ impl<'m, 'g> Emitter<'m, 'g> {
         text
     }
 
-    /// The impl header `impl<T: Scalar> Trait for Type {`, inside the block.
-    fn open(&self, trait_: &str, type_: &str) -> String {
-        format!("    impl{} {trait_} for {type_} {{\n", self.impl_generics())
+    /// The header `impl<T: Scalar> Trait for Type {`; `type_` is the host's or that of one of its frames.
+    fn open(&self, host: &Host, trait_: &str, type_: &str) -> String {
+        let generics = host.generics(&self.scalar_parameter);
+        format!("    #[automatically_derived]\n    impl{generics} {trait_} for {type_}{} {{\n", host.clause)
+    }
+
+    /// The header of an inherent impl, or one of a trait `for ` the host, where a unit struct needs no scalar.
+    pub(super) fn open_without_scalar(&self, host: &Host, trait_for: &str) -> String {
+        let Host { type_, clause, .. } = host;
+        format!(
+            "    #[automatically_derived]\n    impl{} {trait_for}{type_}{clause} {{\n",
+            host.generics(None)
+        )
     }
 
     /// The types that the constants are implemented for: no scalar needed on a unit struct.
@@ -236,12 +295,12 @@ impl<'m, 'g> Emitter<'m, 'g> {
                 writeln!(constants, "            prepare: {},", cost(self.input.compiled.preparation.cost()));
         }
         constants.push_str("            ..Costs::ZERO\n        };\n    }\n\n");
-        let generics = if self.item.form == Form::Unit { String::new() } else { self.impl_generics() };
-        let mut text = format!("    impl{generics} Mechanism for {} {{\n{constants}", self.prepared());
+        let prepared = self.prepared();
+        let mut text = self.open_without_scalar(&prepared, "Mechanism for ") + &constants;
         if self.is_prepared() {
-            let _ = writeln!(text, "    impl{generics} Mechanism for {} {{", self.robot());
+            text.push_str(&self.open_without_scalar(&self.robot(), "Mechanism for "));
             for (name, type_) in CONSTANTS {
-                let _ = writeln!(text, "        const {name}: {type_} = <{}>::{name};", self.prepared());
+                let _ = writeln!(text, "        const {name}: {type_} = <{}>::{name};", prepared.type_);
             }
             text.push_str("    }\n\n");
         }
@@ -249,7 +308,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     }
 
     /// The companion, and the robot where it is another type.
-    fn types(&self) -> Vec<String> {
+    fn types(&self) -> Vec<Host> {
         if self.is_prepared() { vec![self.prepared(), self.robot()] } else { vec![self.robot()] }
     }
 
@@ -291,9 +350,9 @@ impl<'m, 'g> Emitter<'m, 'g> {
             return String::new();
         }
         let trait_ = format!("{name}<{}, {1}, {1}>", self.scalar, self.dof);
-        let open = |type_: &str| match is_trait {
-            true => self.open(&trait_, type_),
-            false => self.open_inherent(type_),
+        let open = |host: &Host| match is_trait {
+            true => self.open(host, &trait_, &host.type_),
+            false => self.open_without_scalar(host, ""),
         };
         let declared = |method: Method, text: &str| match is_trait {
             true => text.to_owned(),
@@ -312,15 +371,10 @@ impl<'m, 'g> Emitter<'m, 'g> {
         text
     }
 
-    /// The header of an inherent impl: on a unit struct each method has the scalar as its own parameter.
-    fn open_inherent(&self, type_: &str) -> String {
-        let generics = if self.item.form == Form::Unit { String::new() } else { self.impl_generics() };
-        format!("    impl{generics} {type_} {{\n")
-    }
-
-    /// The text of a trait's method as that of an inherent one.
+    /// The text of a trait's method as that of an inherent one; on a unit struct the scalar is its parameter.
     fn inherent(&self, method: Method, text: &str) -> String {
-        let generics = if self.item.form == Form::Unit { self.impl_generics() } else { String::new() };
+        let generics =
+            self.scalar_parameter.as_ref().map_or_else(String::new, |scalar| format!("<{scalar}>"));
         let name = method.name();
         text.replacen(&format!("fn {name}("), &format!("{}fn {name}{generics}(", self.item.visibility), 1)
     }
@@ -343,8 +397,8 @@ impl<'m, 'g> Emitter<'m, 'g> {
     fn state_space(&self, written: &[Written]) -> String {
         let (scalar, n) = (&self.scalar, self.dof);
         let mut text = String::new();
-        for type_ in self.types() {
-            text.push_str(&self.open(&format!("Configuration<{scalar}, {n}, {n}>"), &type_));
+        for host in self.types() {
+            text.push_str(&self.open(&host, &format!("Configuration<{scalar}, {n}, {n}>"), &host.type_));
             let _ = write!(
                 text,
                 "        #[inline]\n        fn integrate(&self, q: &SVector<{scalar}, {n}>, delta: &SVector<{scalar}, {n}>) \
@@ -353,9 +407,8 @@ impl<'m, 'g> Emitter<'m, 'g> {
             if !self.has_derivatives(written) {
                 continue;
             }
-            text.push_str(
-                &self.open(&format!("StateSpaceModel<{scalar}, {n}, {n}, {}, {n}>", 2 * n), &type_),
-            );
+            let trait_ = format!("StateSpaceModel<{scalar}, {n}, {n}, {}, {n}>", 2 * n);
+            text.push_str(&self.open(&host, &trait_, &host.type_));
             let _ = write!(
                 text,
                 "        #[inline]\n        fn input_map(&self) -> SMatrix<{scalar}, {n}, {n}> {{\n            \
@@ -370,17 +423,21 @@ impl<'m, 'g> Emitter<'m, 'g> {
     fn frame_types(&self) -> String {
         let Item { name, visibility, .. } = self.item;
         let module = frames_module(name);
-        let inner = if visibility.is_empty() { "pub(super) " } else { visibility.as_str() };
+        // The module's own visibility bounds that of its types; `pub(super)` would mean another module in it.
         let mut text = format!(
-            "/// The frames of [`{name}`], for `pose` and `jacobian`.\n{visibility}mod {module} {{\n"
+            "/// The frames of [`{name}`], for `pose` and `jacobian`.\n#[allow({}, reason = \"generated code\")]\n\
+             {visibility}mod {module} {{\n",
+            allowed("dead_code, unreachable_pub")
         );
         for (type_, frame) in self.frame_types.iter().zip(&self.input.model.tree.frames) {
-            let _ = writeln!(text, "    /// The frame `{}`.\n    #[derive(Clone, Copy, Debug)]", frame.name);
-            let _ = writeln!(text, "    {inner}struct {type_};");
+            let _ = writeln!(text, "    /// The frame `{}`.", frame.name);
+            text.push_str("    #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]\n");
+            let _ = writeln!(text, "    pub struct {type_};");
         }
         let _ = writeln!(
             text,
-            "}}\n#[allow(unused_imports, ambiguous_glob_reexports, reason = \"two robots may share a name\")]"
+            "}}\n#[allow({}, reason = \"two robots may share a name\")]",
+            allowed("unused_imports, unreachable_pub, ambiguous_glob_reexports")
         );
         let _ = writeln!(text, "{visibility}use {module}::*;\n");
         text
@@ -397,18 +454,26 @@ impl<'m, 'g> Emitter<'m, 'g> {
                 continue;
             }
             let type_ = format!("{module}::{type_}");
-            let trait_ = format!("Frame<{}, {scalar}, {n}, {n}>", self.prepared());
-            text.push_str(&self.open(&trait_, &type_));
-            let _ = writeln!(text, "        const NAME: &'static str = {:?};\n", frame.name);
+            let (robot, prepared) = (self.robot(), self.prepared());
+            let trait_ = |host: &Host| format!("Frame<{}, {scalar}, {n}, {n}>", host.type_);
+            text.push_str(&self.open(&prepared, &trait_(&prepared), &type_));
+            let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
+            text.push_str("        const COST: FrameCosts = FrameCosts {\n");
+            for part in &chosen {
+                let _ = writeln!(text, "            {}: {},", part.method.name(), cost(part.cost));
+            }
+            text.push_str("        };\n\n");
             let bodies: Vec<String> = chosen.iter().map(|w| indented(&w.text)).collect();
             text.push_str(&bodies.join("\n"));
             text.push_str("    }\n\n");
             if self.is_prepared() {
-                text.push_str(&self.open(&format!("Frame<{}, {scalar}, {n}, {n}>", self.robot()), &type_));
-                let _ = writeln!(text, "        const NAME: &'static str = {:?};\n", frame.name);
+                text.push_str(&self.open(&robot, &trait_(&robot), &type_));
+                let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
+                let of_prepared = format!("<Self as {}>::COST", trait_(&prepared));
+                let _ = writeln!(text, "        const COST: FrameCosts = {of_prepared};\n");
                 for method in &chosen {
-                    let receiver = format!("robot: &{}", self.robot());
-                    let callee = format!("<Self as Frame<{}, {scalar}, {n}, {n}>>::", self.prepared());
+                    let receiver = format!("robot: &{}", robot.type_);
+                    let callee = format!("<Self as {}>::", trait_(&prepared));
                     let call = self.forwarding(method.method, &receiver, &callee);
                     text.push_str(&call.replace("(q)\n", "(&robot.prepare(), q)\n"));
                 }
@@ -436,62 +501,16 @@ const CONSTANTS: [(&str, &str); 8] = [
     ("COST", "Costs"),
 ];
 
-/// Type names that a glob import must not bring in: they would hide the standard ones.
-const HIDDEN_BY_A_GLOB: &[&str] = &[
-    "Box",
-    "Option",
-    "Some",
-    "None",
-    "Result",
-    "Ok",
-    "Err",
-    "String",
-    "Vec",
-    "Copy",
-    "Clone",
-    "Drop",
-    "Send",
-    "Sync",
-    "Sized",
-    "Fn",
-    "FnMut",
-    "FnOnce",
-    "Iterator",
-    "Into",
-    "From",
-    "Default",
-    "Eq",
-    "Ord",
-    "PartialEq",
-    "PartialOrd",
-    "Pose",
-    "State",
-    "Frame",
-    "Energy",
-    "Sample",
-    "Error",
-    "Cost",
-    "Costs",
-    "Scalar",
-    "Dynamics",
-    "Mechanism",
-    "Simulation",
-    "Kinematics",
-    "Configuration",
-    "Linearization",
-    "Integrator",
-    "Self",
-];
-
-fn frame_type_names(input: &Input<'_, '_>) -> Vec<String> {
-    let mut names = Names::default();
-    input.model.tree.frames.iter().map(|frame| names.fresh(&frame_type(&frame.name))).collect()
-}
-
-/// The type of a frame: `tool0` is `Tool0`.
-pub(super) fn frame_type(frame: &str) -> String {
-    let name = crate::model::names::upper_camel_case(frame);
-    if HIDDEN_BY_A_GLOB.contains(&name.as_str()) { name + "Frame" } else { name }
+/// The names of the parameters in code: those of the fields, where these are names of variables and no others.
+fn parameter_names(input: &Input<'_, '_>) -> Vec<String> {
+    let fields = input.model.parameters.iter().map(|parameter| parameter.name.as_str());
+    let mut taken = Names::default();
+    let mut chosen: Vec<Option<String>> =
+        fields.clone().map(|field| names::is_plain(field).then(|| taken.fresh(field))).collect();
+    for (name, field) in chosen.iter_mut().zip(fields) {
+        name.get_or_insert_with(|| taken.fresh(&(field.to_lowercase() + "_")));
+    }
+    chosen.into_iter().flatten().collect()
 }
 
 fn field_names(input: &Input<'_, '_>, parameters: &[String]) -> Vec<String> {

@@ -32,6 +32,10 @@ pub(super) fn write(
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
         Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar)),
+        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.dof)),
+        Plan::Table { frame: Some((link, program)) } => {
+            text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
+        }
     }
     Written { method: *method, cost: *cost, text }
 }
@@ -59,6 +63,50 @@ fn straight_line(
     }
     text.push_str(&result(method, blocks, &body));
     text.push_str("    }\n");
+    text
+}
+
+/// The body that leaves everything to the run time's recursion.
+fn by_table(method: Method, scalar: &str, dof: usize) -> String {
+    let arguments: String = method
+        .arguments()
+        .iter()
+        .map(|argument| format!(", {}: &SVector<{scalar}, {dof}>", argument.name()))
+        .collect();
+    format!(
+        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table().{0}({2})\n    }}\n",
+        method.name(),
+        return_type(method, scalar, dof),
+        pass_on(method)
+    )
+}
+
+/// The same for a frame, whose pose in its link is given along.
+fn frame_by_table(
+    method: Method,
+    link: Option<usize>,
+    program: &Program,
+    context: &Context<'_>,
+    scalar: &str,
+    robot: &str,
+) -> String {
+    let body = body::write(program, &[], context, 2);
+    let entries: Vec<&str> = body.results.iter().map(String::as_str).collect();
+    let rows: Vec<String> = entries[..9].chunks(3).map(|row| format!("[{}]", row.join(", "))).collect();
+    let mut text = format!(
+        "    fn {}(robot: &{robot}, q: &SVector<{scalar}, {}>) -> {} {{\n",
+        method.name(),
+        context.dof,
+        return_type(method, scalar, context.dof)
+    );
+    text.push_str(&bindings(method, context, &body));
+    let _ = writeln!(
+        text,
+        "        robot.__table().{}({link:?}, [{}], [{}], q)\n    }}",
+        method.name(),
+        rows.join(", "),
+        entries[9..].join(", ")
+    );
     text
 }
 
@@ -164,23 +212,26 @@ fn bindings(method: Method, context: &Context<'_>, body: &Body) -> String {
                 writeln!(lines, "        let [[{}]] = {}.data.0;", shortened(&components), argument.name());
         }
     }
-    if !body.fields.is_empty() {
-        let mut fields = body.fields.clone();
-        fields.sort_unstable();
-        let names: Vec<&str> = fields.iter().map(|&k| context.fields[k].as_str()).collect();
-        let rest = if names.len() < context.fields.len() { ", .." } else { "" };
-        if takes_robot(method) {
-            let _ = writeln!(
-                lines,
-                "        let {} {{ {}{rest} }} = *robot;",
-                context.companion,
-                names.join(", ")
-            );
-        } else {
-            let _ = writeln!(lines, "        let Self {{ {}{rest} }} = *self;", names.join(", "));
-        }
+    let (name, receiver) = if takes_robot(method) { (context.companion, "robot") } else { ("Self", "self") };
+    lines + &fields_binding(context, body, name, receiver, 2)
+}
+
+/// `let Self { k0, k1, .. } = *self;`, if any field is read.
+pub(super) fn fields_binding(
+    context: &Context<'_>,
+    body: &Body,
+    name: &str,
+    receiver: &str,
+    indent: usize,
+) -> String {
+    if body.fields.is_empty() {
+        return String::new();
     }
-    lines
+    let mut fields = body.fields.clone();
+    fields.sort_unstable();
+    let names: Vec<&str> = fields.iter().map(|&k| context.fields[k].as_str()).collect();
+    let rest = if names.len() < context.fields.len() { ", .." } else { "" };
+    format!("{}let {name} {{ {}{rest} }} = *{receiver};\n", "    ".repeat(indent), names.join(", "))
 }
 
 /// `q0, q1, ..` where the last components are not read.

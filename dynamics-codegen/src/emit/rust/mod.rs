@@ -6,6 +6,7 @@ mod items;
 mod methods;
 mod names;
 mod stub;
+mod table;
 
 pub use item::{Form, Item};
 pub use items::implementation;

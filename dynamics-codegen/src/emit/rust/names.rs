@@ -48,3 +48,27 @@ pub(super) fn angle_suffix(inputs: &[Input], parameter: impl Fn(usize) -> String
         _ => None,
     }
 }
+
+/// The functions that generated code calls by their names.
+pub(super) const CALLED: &[&str] = &[
+    "madd",
+    "sin_cos",
+    "sqrt",
+    "of",
+    "vector",
+    "columns",
+    "factor",
+    "forward_from_inverse",
+    "solve_columns",
+];
+
+/// Whether a local variable may have the name of the field: no keyword, nothing that is called, and no capitals,
+/// as constants and unit structs have, which a pattern would compare with.
+pub(super) fn is_plain(field: &str) -> bool {
+    keyword_safe(field) == field && !CALLED.contains(&field) && !field.contains(char::is_uppercase)
+}
+
+/// The identifier of a field: raw, if its name is a keyword.
+pub(super) fn keyword_safe(field: &str) -> String {
+    if syn::parse_str::<syn::Ident>(field).is_ok() { field.to_owned() } else { format!("r#{field}") }
+}

@@ -1,93 +1,141 @@
 //! What stands in for a robot that was wrong: impls that satisfy every use, so that one mistake is one error.
 
 use proc_macro2::{Ident, Span, TokenStream};
-use quote::quote;
+use quote::{format_ident, quote};
 
-use super::items::{frame_type, frames_module};
+use super::item::{bounded, without_bounds};
+use super::items::frames_module;
 use crate::diagnostics::Diagnostics;
-use crate::spec;
+use crate::model::names::frame_type;
+use crate::spec::{self, JointKind, RobotSpec};
 
-/// Impls for every scalar and every size, none of which is ever run.
+/// Impls of everything that the robot would have had, none of which is ever run: for the scalar and the size that
+/// can be read from the mistaken input, and for all where they cannot.
 pub fn stub(input: &syn::DeriveInput) -> TokenStream {
     // The mistakes have been reported; what can be read serves for the names.
     let mut reported = Diagnostics::new();
     let spec = spec::parse(input, &mut reported);
+    let is_read = reported.is_empty();
     let _ = reported.into_text();
+
+    let (scalar, of_struct) = scalar(&spec);
+    let free_scalar = if scalar == FREE_SCALAR { quote!(__T: Scalar,) } else { quote!() };
+    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
+    let (n, free_size) = match moving {
+        0 => (quote!(__N), quote!(const __N: usize,)),
+        _ if !is_read => (quote!(__N), quote!(const __N: usize,)),
+        n => (quote!(#n), quote!()),
+    };
+    let (x, u, free_sizes) = match moving {
+        _ if !free_size.is_empty() => (quote!(__X), quote!(__U), quote!(const __X: usize, const __U: usize,)),
+        n => {
+            let x = 2 * n;
+            (quote!(#x), quote!(#n), quote!())
+        }
+    };
+    let size = if free_size.is_empty() { moving } else { 0 };
+
     let core = spec.options.crate_path();
     let (name, vis) = (&input.ident, &input.vis);
-    let (_, arguments, bounds) = input.generics.split_for_impl();
-    let parameters = input.generics.params.iter().map(|parameter| match parameter {
-        syn::GenericParam::Type(known) => {
-            let (ident, bounds) = (&known.ident, &known.bounds);
-            quote!(#ident: #bounds)
-        }
-        syn::GenericParam::Lifetime(known) => quote!(#known),
-        syn::GenericParam::Const(known) => {
-            let (ident, ty) = (&known.ident, &known.ty);
-            quote!(const #ident: #ty)
-        }
-    });
-    let parameters: TokenStream = parameters.map(|parameter| quote!(#parameter,)).collect();
-    let robot = quote!(#name #arguments);
-    let sized = quote!(__T: Scalar, const __Q: usize, const __V: usize);
+    let bare = without_bounds(&input.generics);
+    let (declared, arguments, _) = bare.split_for_impl();
+    let bounds = &input.generics.where_clause;
+    let parameters = input.generics.params.iter();
+    let parameters: TokenStream = parameters
+        .map(|parameter| bounded(parameter, |ident| of_struct == Some(ident)))
+        .map(|p| quote!(#p,))
+        .collect();
+    let robot = quote!(__Robot #arguments);
+    let generics = quote!(#parameters #free_scalar #free_size);
     let module = Ident::new(&frames_module(&name.to_string()), Span::call_site());
-    let carried = spec.joints.iter().map(|joint| joint.child.text.clone());
-    let mut frames: Vec<String> =
-        spec.bodies.iter().map(|body| body.name.text.clone()).chain(carried).collect();
-    frames.sort_unstable();
-    frames.dedup();
-    let frames: Vec<Ident> =
-        frames.iter().map(|frame| Ident::new(&frame_type(frame), Span::call_site())).collect();
-    let inner = match vis {
-        syn::Visibility::Inherited => quote!(pub(super)),
-        vis => quote!(#vis),
+    let frames = frames(&spec);
+    let has_companion = !spec.fields.is_empty() && input.generics.params.len() <= 1;
+    let companion = format_ident!("{}Prepared", name);
+    let companion = has_companion
+        .then(|| quote!(#[allow(unused, missing_docs)] #vis type #companion #declared = #name #arguments;));
+    let prepare = match spec.fields.is_empty() {
+        true => quote!(#vis fn prepare(&self) -> &Self { self }),
+        false => quote!(#vis fn prepare(&self) -> Self { loop {} }),
     };
     quote! {
-        #[allow(missing_docs)]
-        #vis mod #module { #(#inner struct #frames;)* }
-        #[allow(unused_imports, ambiguous_glob_reexports)]
+        #[allow(unused, missing_docs, unreachable_pub)]
+        #vis mod #module { #(pub struct #frames;)* }
+        #[allow(unused, unreachable_pub, ambiguous_glob_reexports)]
         #vis use #module::*;
-        #[allow(unused_variables, unreachable_code, missing_docs, clippy::all)]
+        #companion
+        #[allow(unused, missing_docs, clippy::all)]
         const _: () = {
+            type __Robot #declared = #name #arguments;
+            const _: () = {
             use #core::__private::*;
-            impl<#parameters> #robot #bounds { #vis fn prepare(&self) -> &Self { self } }
+            impl<#parameters> #robot #bounds { #prepare }
             impl<#parameters> Mechanism for #robot #bounds {
-                const NQ: usize = 0;
-                const NV: usize = 0;
-                const NU: usize = 0;
+                const NQ: usize = #size;
+                const NV: usize = #size;
+                const NU: usize = #size;
                 const NAME: &'static str = "";
                 const JOINT_NAMES: &'static [&'static str] = &[];
                 const BODY_NAMES: &'static [&'static str] = &[];
                 const LIMITS: &'static [JointLimits] = &[];
                 const COST: Costs = Costs::ZERO;
             }
-            impl<#parameters #sized> Dynamics<__T, __Q, __V> for #robot #bounds {
-                fn mass_matrix(&self, q: &SVector<__T, __Q>) -> SMatrix<__T, __V, __V> { loop {} }
-                fn coriolis_matrix(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>) -> SMatrix<__T, __V, __V> { loop {} }
-                fn gravity_forces(&self, q: &SVector<__T, __Q>) -> SVector<__T, __V> { loop {} }
-                fn bias_forces(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>) -> SVector<__T, __V> { loop {} }
-                fn inverse_dynamics(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>, a: &SVector<__T, __V>) -> SVector<__T, __V> { loop {} }
-                fn forward_dynamics(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>, tau: &SVector<__T, __V>) -> SVector<__T, __V> { loop {} }
-                fn kinetic_energy(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>) -> __T { loop {} }
-                fn potential_energy(&self, q: &SVector<__T, __Q>) -> __T { loop {} }
-                fn lagrangian(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>) -> __T { loop {} }
+            impl<#generics> Dynamics<#scalar, #n, #n> for #robot #bounds {
+                fn mass_matrix(&self, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
+                fn coriolis_matrix(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
+                fn gravity_forces(&self, q: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn bias_forces(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn inverse_dynamics(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn forward_dynamics(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn kinetic_energy(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
+                fn potential_energy(&self, q: &SVector<#scalar, #n>) -> #scalar { loop {} }
+                fn lagrangian(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
             }
-            impl<#parameters #sized> DynamicsDerivatives<__T, __Q, __V> for #robot #bounds {
-                fn inverse_dynamics_derivatives(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>, a: &SVector<__T, __V>) -> InverseDynamicsDerivatives<__T, __V> { loop {} }
-                fn forward_dynamics_derivatives(&self, q: &SVector<__T, __Q>, v: &SVector<__T, __V>, tau: &SVector<__T, __V>) -> ForwardDynamicsDerivatives<__T, __V> { loop {} }
+            impl<#generics> DynamicsDerivatives<#scalar, #n, #n> for #robot #bounds {
+                fn inverse_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> InverseDynamicsDerivatives<#scalar, #n> { loop {} }
+                fn forward_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> ForwardDynamicsDerivatives<#scalar, #n> { loop {} }
             }
-            impl<#parameters #sized> Configuration<__T, __Q, __V> for #robot #bounds {
-                fn integrate(&self, q: &SVector<__T, __Q>, delta: &SVector<__T, __V>) -> SVector<__T, __Q> { loop {} }
+            impl<#generics> Configuration<#scalar, #n, #n> for #robot #bounds {
+                fn integrate(&self, q: &SVector<#scalar, #n>, delta: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
             }
-            impl<#parameters #sized, const __X: usize, const __U: usize> StateSpaceModel<__T, __Q, __V, __X, __U> for #robot #bounds {
-                fn input_map(&self) -> SMatrix<__T, __V, __U> { loop {} }
+            impl<#generics #free_sizes> StateSpaceModel<#scalar, #n, #n, #x, #u> for #robot #bounds {
+                fn input_map(&self) -> SMatrix<#scalar, #n, #u> { loop {} }
             }
-            #(impl<#parameters #sized> Frame<#robot, __T, __Q, __V> for #module::#frames #bounds {
+            #(impl<#generics> Frame<#robot, #scalar, #n, #n> for #module::#frames #bounds {
                 const NAME: &'static str = "";
-                fn pose(robot: &#robot, q: &SVector<__T, __Q>) -> Pose<__T> { loop {} }
-                fn jacobian(robot: &#robot, q: &SVector<__T, __Q>) -> SMatrix<__T, 6, __V> { loop {} }
-                fn world_jacobian(robot: &#robot, q: &SVector<__T, __Q>) -> SMatrix<__T, 6, __V> { loop {} }
+                fn pose(robot: &#robot, q: &SVector<#scalar, #n>) -> Pose<#scalar> { loop {} }
+                fn jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
+                fn world_jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
             })*
+            };
         };
     }
+}
+
+const FREE_SCALAR: &str = "__T";
+
+/// The scalar of the impls, and the struct's parameter that it is.
+fn scalar(spec: &RobotSpec) -> (Ident, Option<&Ident>) {
+    let mut parameters = spec.type_parameters();
+    if let (Some(only), None) = (parameters.next(), parameters.next()) {
+        return (only.clone(), Some(only));
+    }
+    let has = |name: &str| {
+        spec.fields.iter().any(|field| matches!(&field.ty, syn::Type::Path(p) if p.path.is_ident(name)))
+    };
+    let name = match (has("f64"), has("f32")) {
+        (true, false) => "f64",
+        (false, true) => "f32",
+        _ => FREE_SCALAR,
+    };
+    (Ident::new(name, Span::call_site()), None)
+}
+
+/// The types of the frames, each once, of those names that can be types.
+fn frames(spec: &RobotSpec) -> Vec<Ident> {
+    let carried = spec.joints.iter().map(|joint| &joint.child.text);
+    let names = spec.bodies.iter().map(|body| &body.name.text).chain(carried);
+    let mut types: Vec<String> = names.map(|name| frame_type(name, &spec.ident.to_string())).collect();
+    types.sort_unstable();
+    types.dedup();
+    types.iter().filter_map(|type_| syn::parse_str(type_).ok()).collect()
 }

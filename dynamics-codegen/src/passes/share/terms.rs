@@ -161,8 +161,12 @@ impl Definitions {
         let mut common = Vec::new();
         while let (Some(&&a), Some(&&b)) = (x.peek(), y.peek()) {
             match a.cmp(&b) {
-                std::cmp::Ordering::Less => drop(x.next()),
-                std::cmp::Ordering::Greater => drop(y.next()),
+                std::cmp::Ordering::Less => {
+                    x.next();
+                }
+                std::cmp::Ordering::Greater => {
+                    y.next();
+                }
                 std::cmp::Ordering::Equal => {
                     common.push(a);
                     (x.next(), y.next());

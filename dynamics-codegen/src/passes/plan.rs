@@ -1,0 +1,129 @@
+//! In which form a method is written: straight line, or loops once that would be too long to compile.
+//!
+//! rustc takes a second for some 5,000 statements with optimisation, and more than in proportion beyond 20,000.
+//! How long a straight line would be is known before anything is traced, from the joints between each joint and
+//! the base.
+
+use super::{Cost, Program};
+use crate::mechanics::equations::{Block, Method};
+use crate::model::Model;
+
+/// The most statements that one method may have.
+const LONGEST_STRAIGHT_LINE: usize = 20_000;
+/// The most statements that the kinematics of all frames may have together.
+const LONGEST_KINEMATICS: usize = 100_000;
+/// The largest robot whose many right-hand sides are solved in a straight line.
+const LARGEST_STRAIGHT_SOLVE: usize = 7;
+
+/// How a method is computed.
+pub enum Plan<'g> {
+    /// By a program of its own.
+    StraightLine {
+        /// What it returns, simplified.
+        blocks: Vec<Block<'g>>,
+        /// The operations.
+        program: Program,
+    },
+    /// Derivatives of forward dynamics from those of inverse dynamics, by the run time's loops over columns.
+    FromInverse {
+        /// The joints between each joint and the base.
+        ancestors: Vec<Vec<usize>>,
+    },
+    /// By the run time's recursion over a table of links.
+    Table {
+        /// For the kinematics of a frame: its link, and the program of its pose in that link.
+        frame: Option<(Option<usize>, Program)>,
+    },
+}
+
+/// The forms of a plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Form {
+    StraightLine,
+    FromInverse,
+    Table,
+}
+
+/// How each method of a robot is computed.
+pub(super) struct Plans {
+    /// The joints between each joint and the base.
+    pub(super) ancestors: Vec<Vec<usize>>,
+    frames: usize,
+    /// For each frame the joints below it, in sum.
+    frame_joints: usize,
+}
+
+impl Plans {
+    pub(super) fn of(model: &Model<'_>) -> Self {
+        let parent = |k: usize| model.tree.links[k].parent;
+        let ancestors: Vec<Vec<usize>> = (0..model.tree.dof())
+            .map(|k| std::iter::successors(parent(k), |&k| parent(k)).collect())
+            .collect();
+        let below = |link: Option<usize>| link.map_or(0, |link| ancestors[link].len() + 1);
+        let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
+        Self { frames: model.tree.frames.len(), frame_joints, ancestors }
+    }
+
+    pub(super) fn form(&self, method: Method) -> Form {
+        let too_long = match method {
+            Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_) => {
+                self.statements(method) * self.frames > LONGEST_KINEMATICS
+            }
+            _ => self.statements(method) > LONGEST_STRAIGHT_LINE,
+        };
+        match method {
+            _ if too_long => Form::Table,
+            Method::ForwardDynamicsDerivatives if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE => {
+                Form::FromInverse
+            }
+            _ => Form::StraightLine,
+        }
+    }
+
+    /// About how many statements a straight line would have, as measured on general chains and trees.
+    fn statements(&self, method: Method) -> usize {
+        let n = self.ancestors.len();
+        let pairs = n + self.ancestors.iter().map(Vec::len).sum::<usize>();
+        match method {
+            Method::MassMatrix => 4 * pairs,
+            Method::CoriolisMatrix | Method::EquationsOfMotion => 16 * pairs,
+            Method::InverseDynamicsDerivatives => 36 * pairs,
+            Method::GravityForces | Method::PotentialEnergy => 10 * n,
+            Method::BiasForces | Method::InverseDynamics => 40 * n,
+            Method::KineticEnergy | Method::Lagrangian => 20 * n,
+            Method::ForwardDynamics => 80 * n,
+            // By loops: the two methods it calls have their own forms.
+            Method::ForwardDynamicsDerivatives => 0,
+            Method::Pose(_) => 12 * self.frame_joints / self.frames.max(1),
+            Method::Jacobian(_) | Method::WorldJacobian(_) => 16 * self.frame_joints / self.frames.max(1),
+        }
+    }
+
+    /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since
+    /// nothing is known to be zero.
+    pub(super) fn cost_of_table(&self, method: Method) -> Cost {
+        let count = u32::try_from(3 * self.statements(method)).unwrap_or(u32::MAX);
+        let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);
+        Cost { multiplications: count, additions: count, sines_and_cosines: joints, ..Cost::default() }
+    }
+}
+
+/// The methods to compile: those named and what they call, or all.
+pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
+    let frames = 0..model.tree.frames.len();
+    let of_frames = frames.flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
+    let by_parts = Plans::of(model).form(Method::ForwardDynamicsDerivatives) == Form::FromInverse;
+    // A frame has all of its kinematics or none.
+    let of_frame = ["pose", "jacobian", "world_jacobian"];
+    let is_wanted = |method: Method| {
+        let names = if of_frame.contains(&method.name()) { &of_frame[..] } else { &[method.name()] };
+        wanted.is_none_or(|wanted| wanted.iter().any(|name| names.contains(name)))
+    };
+    let is_called = |method: &Method| {
+        is_wanted(*method)
+            || (by_parts
+                && matches!(method, Method::ForwardDynamics | Method::InverseDynamicsDerivatives)
+                && is_wanted(Method::ForwardDynamicsDerivatives))
+    };
+    Method::OF_ROBOT.into_iter().chain(of_frames).filter(is_called).collect()
+}

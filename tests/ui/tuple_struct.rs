@@ -1,0 +1,12 @@
+use dynamics_core::prelude::*;
+
+#[derive(Dynamics)]
+#[joint(shoulder: revolute(z), world -> arm)]
+#[body(arm, mass = 1.5, com = [0.2, 0, 0], inertia = diag(0.1, 0.1, 0.2))]
+struct Arm(f64);
+
+fn main() {
+    let q = SVector::from([0.1]);
+    let robot = Arm(1.0);
+    println!("{}", robot.mass_matrix(&q)[(0, 0)]);
+}
