@@ -112,7 +112,7 @@ impl<const N: usize> Robot<N> {
 }
 
 fn by_rows<T: Scalar>(rows: [[T; 3]; 3]) -> SMatrix<T, 3, 3> {
-    SMatrix::from(rows).transpose()
+    SMatrix::<T, 3, 3>::from(rows).transpose()
 }
 
 trait AddPoint {

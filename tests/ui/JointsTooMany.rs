@@ -1,3 +1,4 @@
+#![recursion_limit = "4096"]
 use dynamics_core::prelude::*;
 
 /// More joints than straight-line code serves, by doubling.

@@ -71,8 +71,11 @@ impl<'a> Units<'a> {
     pub(super) fn infer(values: &'a Values<'a, 'a>, slots: &[Slot], diags: &mut Diagnostics) -> Self {
         let count = values.fields().len();
         let mut units = Self { values, solved: vec![None; count], origins: vec![None; count] };
-        let (bare, composed): (Vec<_>, Vec<_>) =
-            slots.iter().partition(|slot| units.bare_field(slot.formula).is_some());
+        // A field where a number is needed is a mistake already, and tells nothing of the field's unit.
+        let (bare, composed): (Vec<_>, Vec<_>) = slots
+            .iter()
+            .filter(|slot| slot.constant.is_none() || !units.names_field(slot.formula))
+            .partition(|slot| units.bare_field(slot.formula).is_some());
         for slot in bare.into_iter().chain(composed) {
             units.slot(slot, diags);
         }
@@ -83,6 +86,12 @@ impl<'a> Units<'a> {
     pub(super) fn of_field(&self, field: usize) -> Option<[Number; 3]> {
         let unit = self.solved[field].as_ref()?;
         unit.fields.is_empty().then_some(unit.constant)
+    }
+
+    fn names_field(&self, formula: &Formula) -> bool {
+        let mut found = false;
+        for_each_name(formula, &mut |name| found |= self.values.field(name).is_some());
+        found
     }
 
     fn bare_field(&self, formula: &Formula) -> Option<usize> {

@@ -4,6 +4,8 @@ use super::dimensions::{Units, is_quantity, unit_of};
 use super::quantities::{Quantity, Slot};
 use super::values::{Values, for_each_name};
 use super::{FieldType, Parameter};
+use quote::ToTokens;
+
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::spec::{Field, RobotSpec};
 use crate::symbolic::{Number, SymbolId};
@@ -42,7 +44,10 @@ fn type_of(field: &Field, spec: &RobotSpec) -> Result<FieldType, Diagnostic> {
         (None, Some(ident)) if ident == "f64" => Ok(FieldType::F64),
         (None, Some(ident)) if ident == "f32" => Ok(FieldType::F32),
         _ => {
-            let message = format!("the robot uses the field `{}`, which is no number", field.name);
+            let ty: String =
+                field.ty.to_token_stream().to_string().chars().filter(|c| *c != ' ').take(48).collect();
+            let message =
+                format!("the robot uses the field `{}`, and its type `{ty}` is no scalar", field.name);
             Err(Diagnostic::new(Code::FieldTypeUnsupported, &field.name.place, message))
         }
     }

@@ -91,17 +91,19 @@ fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
         && let (Some(low), Some(high)) = (constant(values, lower), constant(values, upper))
         && !low.cmp_value(high).is_lt()
     {
-        let message = format!("the limits of `{name}` leave no room: from {} to {}", plain(low), plain(high));
+        let (low, high) = (lower.short_text(), upper.short_text());
+        let message = format!("the limits of `{name}` leave no room: from `{low}` to `{high}`");
         diags.error(Code::LimitsInverted, &lower.place.to(&upper.place), message);
     }
-    for (key, limit) in [("velocity", &joint.velocity), ("effort", &joint.effort)] {
+    let units = if joint.kind == JointKind::Prismatic { ["m/s", "N"] } else { ["rad/s", "N·m"] };
+    for (key, limit, unit) in [("velocity", &joint.velocity, units[0]), ("effort", &joint.effort, units[1])] {
         if let Some(limit) = limit
             && let Some(value) = constant(values, limit).filter(|value| value.is_negative())
         {
             diags.error(
                 Code::LimitNegative,
                 &limit.place,
-                format!("the {key} limit of `{name}` is {}", plain(value)),
+                format!("the {key} limit of `{name}` is {} {unit}", plain(value)),
             );
         }
     }

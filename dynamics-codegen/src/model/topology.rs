@@ -159,9 +159,11 @@ fn distinct_types<'s>(names: impl Iterator<Item = &'s Name>, robot: &str, diags:
 /// Bodies that no joint carries, and moving joints whose bodies are not described.
 fn check_bodies(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>, diags: &mut Diagnostics) {
     let described: FxHashMap<_, _> = spec.bodies.iter().map(|body| (body.name.text.as_str(), ())).collect();
+    // A joint that carries the world is turned round: its parent will be carried then.
+    let turned = |name: &str| spec.joints.iter().any(|j| j.child.text == WORLD && j.parent.text == name);
     for body in spec.bodies.iter().filter(|body| body.name.text != WORLD) {
         let name = &body.name;
-        if !carriers.contains_key(&*name.text) {
+        if !carriers.contains_key(&*name.text) && !turned(&name.text) {
             let message = format!("no joint carries the body `{name}`");
             let help = format!("carry it by a joint, as in `#[joint({name}_joint: fixed, world -> {name})]`");
             let open = spec.joints.iter().map(|joint| &*joint.child.text);

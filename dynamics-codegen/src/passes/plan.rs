@@ -11,7 +11,7 @@ use crate::model::Model;
 /// The most statements that one method may have.
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
 /// The most statements that the kinematics of all frames may have together.
-const LONGEST_KINEMATICS: usize = 100_000;
+const LONGEST_KINEMATICS: usize = 50_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
 

@@ -111,6 +111,8 @@ impl JointSpec {
         let head = items.next().ok_or_else(|| missing("name: kind(axis)", &place)).and_then(head);
         let edge = match (&head, items.next()) {
             (Err(_), None) => Ok(None),
+            // The comma behind the head may be what is missing.
+            (Err(mistake), Some(item)) if mistake.code == Code::Syntax => Ok(edge(item).ok()),
             (Ok(_), None) => Err(missing("parent -> child", &place)),
             (_, Some(item)) => edge(item).map(Some),
         };

@@ -73,7 +73,8 @@ fn switch(entry: Entry) -> Result<bool> {
         "on" => Ok(true),
         "off" => Ok(false),
         _ => {
-            Err(Diagnostic::new(Code::Syntax, &name.place, format!("expected `on` or `off`, found `{name}`")))
+            let message = format!("expected `on` or `off`, found `{name}`");
+            Err(Diagnostic::new(Code::Syntax, &name.place, message).help("write `snap = on` or `snap = off`"))
         }
     }
 }

@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use dynamics_bench::zoo::industrial;
+use dynamics_bench::industrial;
 use dynamics_core::prelude::*;
 
 const STATES: usize = 256;
