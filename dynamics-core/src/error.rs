@@ -23,6 +23,16 @@ pub enum Error {
     SingularMassMatrix,
     /// A step of time is zero, negative, infinite or NaN.
     StepNotPositive,
+    /// A field of the robot is infinite or NaN.
+    ParameterNotFinite {
+        /// The field's name.
+        field: &'static str,
+    },
+    /// A field of the robot that is a mass is zero or negative.
+    MassNotPositive {
+        /// The field's name.
+        field: &'static str,
+    },
 }
 
 impl Error {
@@ -43,12 +53,38 @@ impl Error {
     }
 }
 
+impl Error {
+    /// `Ok` if the field of a robot is finite. Called by the generated `check`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ParameterNotFinite`].
+    #[inline]
+    pub fn unless_finite_parameter<T: Scalar>(field: &'static str, value: T) -> Result<(), Self> {
+        if value.is_finite() { Ok(()) } else { Err(Self::ParameterNotFinite { field }) }
+    }
+
+    /// `Ok` if the field of a robot, a mass in kg, is finite and greater than zero. Called by the generated
+    /// `check`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ParameterNotFinite`], [`Error::MassNotPositive`].
+    #[inline]
+    pub fn unless_positive_mass<T: Scalar + PartialOrd>(field: &'static str, value: T) -> Result<(), Self> {
+        Self::unless_finite_parameter(field, value)?;
+        if value > T::zero() { Ok(()) } else { Err(Self::MassNotPositive { field }) }
+    }
+}
+
 impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { vector, index } => write!(f, "{vector}[{index}] is not finite"),
             Self::SingularMassMatrix => f.write_str("the mass matrix is singular"),
             Self::StepNotPositive => f.write_str("the time step is not positive and finite"),
+            Self::ParameterNotFinite { field } => write!(f, "the parameter `{field}` is not finite"),
+            Self::MassNotPositive { field } => write!(f, "the mass `{field}` is not positive"),
         }
     }
 }
@@ -63,6 +99,13 @@ mod tests {
     fn messages_state_the_fact() {
         use std::string::ToString;
         assert_eq!(Error::NotFinite { vector: "q", index: 3 }.to_string(), "q[3] is not finite");
+        let negative = Error::unless_positive_mass("m2", -0.5);
+        assert_eq!(negative, Err(Error::MassNotPositive { field: "m2" }));
+        assert_eq!(Error::MassNotPositive { field: "m2" }.to_string(), "the mass `m2` is not positive");
+        let infinite = Error::unless_positive_mass("m2", f64::INFINITY);
+        assert_eq!(infinite, Err(Error::ParameterNotFinite { field: "m2" }));
+        assert_eq!(Error::ParameterNotFinite { field: "l" }.to_string(), "the parameter `l` is not finite");
+        assert_eq!(Error::unless_finite_parameter("l", -1.0_f32), Ok(()));
         assert_eq!(Error::SingularMassMatrix.to_string(), "the mass matrix is singular");
         assert_eq!(Error::StepNotPositive.to_string(), "the time step is not positive and finite");
     }

@@ -9,8 +9,8 @@ pub const ROUNDING: f64 = 1e-12;
 pub const DERIVATIVES: f64 = 1e-9;
 
 /// Central differences with a step of 1e-5: 1e-10 from the third derivative, and 1e-16/1e-5 from rounding, both
-/// times the size of what is differentiated.
-pub const DIFFERENCES: f64 = 1e-7;
+/// times the size of what is differentiated and a little more for fast angles.
+pub const DIFFERENCES: f64 = 1e-8;
 
 /// Single precision: some hundred operations of 6e-8 each, which mostly cancel, and sines with an absolute error
 /// of 9.2e-8.

@@ -106,7 +106,7 @@ mod parameters {
     robot! { [pub(crate) struct Defaulted<T = f64>] m, l, { m: T, l: T } }
     robot! { [pub(crate) struct Lifetime<'a, T: 'a + Copy>] m, l, { m: T, l: T, name: &'a str } }
     robot! { [pub(crate) struct Constant<T, const N: usize>] m, l, { m: T, l: T, more: [u8; N] } }
-    robot! { [pub(crate) struct Meta<M: Debug>] m, l, { m: f64, l: f64, meta: M } }
+    robot! { [pub(crate) struct Meta<M: Debug>] m, l, { m: f64, l: f64, name: M } }
     robot! { [pub(crate) struct Two<M, T> where M: Debug] m, l, { m: T, l: T, meta: PhantomData<M> } }
     robot! { [pub(crate) struct Single] m, l, { m: f32, l: f32, name: String, more: Vec<u8> } }
     robot! { [pub(crate) struct Numbers<'a, T, U>] 2, 0.5, { t: &'a T, u: U } }
@@ -124,8 +124,8 @@ mod parameters {
         assert_eq!(super::mass(&lifetime), super::EXPECTED, "{}", lifetime.name);
         let constant = Constant { m, l, more: [1, 2, 3] };
         assert_eq!(super::mass(&constant), super::EXPECTED, "{:?}", constant.more);
-        let meta = Meta { m, l, meta: "rod" };
-        assert_eq!(super::mass(&meta), super::EXPECTED, "{}", meta.meta);
+        let meta = Meta { m, l, name: "rod" };
+        assert_eq!(super::mass(&meta), super::EXPECTED, "{}", meta.name);
         let two = Two { m, l, meta: PhantomData::<String> };
         assert_eq!(super::mass(&two), super::EXPECTED, "{:?}", two.meta);
         let single = Single { m: 2.0, l: 0.5, name: String::new(), more: vec![] };
@@ -202,8 +202,8 @@ mod shadowed {
 
     use ::dynamics_core::Dynamics;
 
-    pub(crate) fn madd() {}
-    pub(crate) fn sin_cos() {}
+    pub(crate) const fn madd() {}
+    pub(crate) const fn sin_cos() {}
     pub(crate) struct Scalar;
     pub(crate) struct SVector;
     pub(crate) struct Cost;

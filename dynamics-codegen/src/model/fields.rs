@@ -1,11 +1,11 @@
 //! The fields that the equations use: their common type, their units, and values to try.
 
+use quote::ToTokens;
+
 use super::dimensions::{Units, is_quantity, unit_of};
 use super::quantities::{Quantity, Slot};
 use super::values::{Values, for_each_name};
 use super::{FieldType, Parameter};
-use quote::ToTokens;
-
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::spec::{Field, RobotSpec};
 use crate::symbolic::{Number, SymbolId};

@@ -32,6 +32,9 @@ fn main() {
     }
 }
 
+/// Coordinates, speeds, and accelerations or forces.
+type States<const N: usize> = (SVector<f64, N>, SVector<f64, N>, SVector<f64, N>);
+
 /// Times every method of a robot.
 fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R) {
     let mut seed = 2026_u64;
@@ -41,8 +44,7 @@ fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R
     };
     let mut vector = || SVector::<f64, N>::from_fn(|_, _| random());
     let states: Vec<_> = (0..STATES).map(|_| (vector(), vector(), vector())).collect();
-    let time = |algorithm: &str,
-                call: &mut dyn FnMut(&(SVector<f64, N>, SVector<f64, N>, SVector<f64, N>))| {
+    let time = |algorithm: &str, call: &mut dyn FnMut(&States<N>)| {
         let mut batches: Vec<f64> = (0..BATCHES)
             .map(|_| {
                 let start = Instant::now();
@@ -53,15 +55,13 @@ fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R
         batches.sort_by(f64::total_cmp);
         println!("{name}\t{N}\tours\t{algorithm}\t{:.1}\t{:.1}", batches[0], batches[BATCHES / 2]);
     };
-    time("g", &mut |(q, _, _)| drop(black_box(robot.gravity_forces(black_box(q)))));
-    time("rnea", &mut |(q, v, a)| drop(black_box(robot.inverse_dynamics(black_box(q), v, a))));
-    time("nle", &mut |(q, v, _)| drop(black_box(robot.bias_forces(black_box(q), v))));
-    time("crba", &mut |(q, _, _)| drop(black_box(robot.mass_matrix(black_box(q)))));
-    time("cor", &mut |(q, v, _)| drop(black_box(robot.coriolis_matrix(black_box(q), v))));
-    time("aba", &mut |(q, v, tau)| drop(black_box(robot.forward_dynamics(black_box(q), v, tau))));
-    time("M+C+G", &mut |(q, v, _)| drop(black_box(robot.equations_of_motion(black_box(q), v))));
-    time("drnea", &mut |(q, v, a)| drop(black_box(robot.inverse_dynamics_derivatives(black_box(q), v, a))));
-    time("daba", &mut |(q, v, tau)| {
-        drop(black_box(robot.forward_dynamics_derivatives(black_box(q), v, tau)))
-    });
+    time("g", &mut |(q, _, _)| _ = black_box(robot.gravity_forces(black_box(q))));
+    time("rnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics(black_box(q), v, a)));
+    time("nle", &mut |(q, v, _)| _ = black_box(robot.bias_forces(black_box(q), v)));
+    time("crba", &mut |(q, _, _)| _ = black_box(robot.mass_matrix(black_box(q))));
+    time("cor", &mut |(q, v, _)| _ = black_box(robot.coriolis_matrix(black_box(q), v)));
+    time("aba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics(black_box(q), v, tau)));
+    time("M+C+G", &mut |(q, v, _)| _ = black_box(robot.equations_of_motion(black_box(q), v)));
+    time("drnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics_derivatives(black_box(q), v, a)));
+    time("daba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics_derivatives(black_box(q), v, tau)));
 }

@@ -5,23 +5,27 @@
 /// Nothing: the zoo's entries are for tests.
 pub struct Entry;
 
-macro_rules! robot {
-    ($module:ident = $name:ident, $sizes:tt, $frames:tt; $($item:tt)*) => {
-        #[doc = concat!("The robot `", stringify!($name), "`.")]
-        pub mod $module {
-            use dynamics_core::prelude::*;
+mod declaration {
+    macro_rules! robot {
+        ($module:ident = $name:ident, $sizes:tt, $frames:tt; $($item:tt)*) => {
+            #[doc = concat!("The robot `", stringify!($name), "`.")]
+            pub mod $module {
+                use dynamics_core::prelude::*;
 
-            #[derive(Dynamics, Clone, Copy, Debug)]
-            $($item)*
+                #[derive(Dynamics, Clone, Copy, Debug)]
+                $($item)*
 
-            pub(super) fn entry() -> crate::Entry {
-                crate::Entry
+                pub(super) fn entry() -> crate::Entry {
+                    crate::Entry
+                }
             }
-        }
-    };
+        };
+    }
+
+    pub(super) use robot;
 }
 
-use robot;
+use declaration::robot;
 
 #[path = "../../src/zoo/industrial.rs"]
 pub mod industrial;

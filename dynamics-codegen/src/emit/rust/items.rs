@@ -2,14 +2,12 @@
 
 use std::fmt::Write as _;
 
-use super::body::{self, Context, Literals};
+use super::body::{Context, Literals};
 use super::methods::{self, Written};
-use super::names::{self, Names, keyword_safe};
+use super::names::{self, Names};
 use super::{Form, Input, Item};
 use crate::mechanics::equations::{Input as Symbol, Method};
-use crate::model::Limits;
 use crate::model::names::{frame_type, hides_a_common_name};
-use crate::passes::Cost;
 use crate::symbolic::{Expr, Op};
 
 /// Writes everything that is generated for a robot.
@@ -25,6 +23,7 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     let _ = writeln!(text, "    use {}::__private::*;\n", emitter.item.core);
     for part in [
         emitter.prepare(),
+        emitter.check(),
         emitter.table(),
         emitter.mechanism(&written),
         emitter.dynamics(&written),
@@ -39,23 +38,23 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
 }
 
 /// The lints that generated code is free of, whatever else it does.
-fn allowed(lints: &str) -> String {
+pub(super) fn allowed(lints: &str) -> String {
     format!("{lints}, clippy::all, clippy::pedantic, clippy::nursery")
 }
 
 /// A type that impls are for.
 pub(super) struct Host {
     /// The type, with its arguments.
-    type_: String,
+    pub(super) type_: String,
     /// Its parameters with their bounds, without the scalar of a unit struct.
-    parameters: Vec<String>,
+    pub(super) parameters: Vec<String>,
     /// Its where-clause.
-    clause: String,
+    pub(super) clause: String,
 }
 
 impl Host {
     /// `<T: Scalar>`; nothing without parameters.
-    fn generics<'a>(&'a self, scalar: impl IntoIterator<Item = &'a String>) -> String {
+    pub(super) fn generics<'a>(&'a self, scalar: impl IntoIterator<Item = &'a String>) -> String {
         let all: Vec<&str> = self.parameters.iter().chain(scalar).map(String::as_str).collect();
         if all.is_empty() { String::new() } else { format!("<{}>", all.join(", ")) }
     }
@@ -63,16 +62,16 @@ impl Host {
 
 pub(super) struct Emitter<'m, 'g> {
     pub(super) input: &'m Input<'m, 'g>,
-    item: &'m Item,
+    pub(super) item: &'m Item,
     pub(super) dof: usize,
     /// The scalar's name in the impls.
     pub(super) scalar: String,
     /// The bound of the scalar where it is no parameter of the robot.
     pub(super) scalar_parameter: Option<String>,
     /// The parameters' names in code.
-    parameters: Vec<String>,
-    fields: Vec<String>,
-    frame_types: Vec<String>,
+    pub(super) parameters: Vec<String>,
+    pub(super) fields: Vec<String>,
+    pub(super) frame_types: Vec<String>,
 }
 
 impl<'m, 'g> Emitter<'m, 'g> {
@@ -101,7 +100,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     }
 
     /// Whether there is a companion apart from the robot itself.
-    fn is_prepared(&self) -> bool {
+    pub(super) fn is_prepared(&self) -> bool {
         !self.fields.is_empty()
     }
 
@@ -128,7 +127,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     }
 
     /// The robot's type.
-    fn robot(&self) -> Host {
+    pub(super) fn robot(&self) -> Host {
         let Item { parameters, arguments, clause, .. } = self.item;
         let type_ = format!("{}{arguments}", self.robot_name());
         Host { type_, parameters: parameters.clone(), clause: clause.clone() }
@@ -150,7 +149,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
         }
     }
 
-    fn literals(&self) -> Literals {
+    pub(super) fn literals(&self) -> Literals {
         match self.item.form {
             Form::Concrete(_) => Literals::Plain,
             _ => Literals::Of(self.scalar.clone()),
@@ -170,91 +169,8 @@ impl<'m, 'g> Emitter<'m, 'g> {
         self.input.compiled.methods.iter().map(write).collect()
     }
 
-    fn companion_struct(&self) -> String {
-        if !self.is_prepared() {
-            return String::new();
-        }
-        let Item { name, visibility, .. } = self.item;
-        let (generics, scalar) = match &self.item.form {
-            Form::Generic(parameter) => (format!("<{parameter}>"), parameter.as_str()),
-            _ => (String::new(), self.scalar.as_str()),
-        };
-        let mut text = format!("/// [`{name}`] after all work that depends on its parameters alone.\n");
-        let _ = writeln!(text, "#[allow({}, reason = \"generated code\")]", allowed("dead_code"));
-        text.push_str(
-            "#[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug, ::core::cmp::PartialEq)]\n",
-        );
-        let _ = writeln!(text, "{visibility}struct {}{generics} {{", self.companion_name());
-        for field in &self.fields {
-            let _ = writeln!(text, "    {field}: {scalar},");
-        }
-        text.push_str("}\n\n");
-        text
-    }
-
-    /// `prepare()`: on a robot without parameters, the robot itself.
-    fn prepare(&self) -> String {
-        let mut text = self.open_without_scalar(&self.robot(), "");
-        if !self.is_prepared() {
-            text.push_str(
-                "        /// The robot itself: no work depends on parameters alone.\n        #[inline]\n",
-            );
-            let _ = writeln!(
-                text,
-                "        {}fn prepare(&self) -> &Self {{\n            self\n        }}",
-                self.item.visibility
-            );
-            text.push_str("    }\n\n");
-            return text;
-        }
-        let program = &self.input.compiled.preparation;
-        let context = Context {
-            companion: "",
-            fields: &[],
-            parameters: &self.parameters,
-            literals: self.literals(),
-            dof: self.dof,
-        };
-        let body = body::write(program, &self.fields, &context, 3);
-        let _ = writeln!(
-            text,
-            "        /// Does all work that depends on the parameters alone, once.\n        ///\n        /// {}.",
-            methods::describe(program.cost())
-        );
-        let visibility = &self.item.visibility;
-        let _ = writeln!(
-            text,
-            "        #[inline]\n        {visibility}fn prepare(&self) -> {} {{",
-            self.prepared().type_
-        );
-        let read = body.inputs.iter().filter_map(|(input, name)| match input {
-            Symbol::Parameter(k) => Some((keyword_safe(&self.input.model.parameters[*k].name), name)),
-            Symbol::Argument(..) => None,
-        });
-        let binding = |(field, name): (String, &String)| {
-            if field == *name { field } else { format!("{field}: {name}") }
-        };
-        let mut read: Vec<String> = read.map(binding).collect();
-        read.sort_unstable();
-        let _ = writeln!(text, "            let Self {{ {}, .. }} = *self;\n", read.join(", "));
-        text.push_str(&body.statements);
-        if !body.statements.is_empty() {
-            text.push('\n');
-        }
-        let _ = writeln!(text, "            {} {{", self.companion_name());
-        for (field, value) in self.fields.iter().zip(&body.results) {
-            if field == value {
-                let _ = writeln!(text, "                {field},");
-            } else {
-                let _ = writeln!(text, "                {field}: {value},");
-            }
-        }
-        text.push_str("            }\n        }\n    }\n\n");
-        text
-    }
-
     /// The header `impl<T: Scalar> Trait for Type {`; `type_` is the host's or that of one of its frames.
-    fn open(&self, host: &Host, trait_: &str, type_: &str) -> String {
+    pub(super) fn open(&self, host: &Host, trait_: &str, type_: &str) -> String {
         let generics = host.generics(&self.scalar_parameter);
         format!("    #[automatically_derived]\n    impl{generics} {trait_} for {type_}{} {{\n", host.clause)
     }
@@ -268,47 +184,8 @@ impl<'m, 'g> Emitter<'m, 'g> {
         )
     }
 
-    /// The types that the constants are implemented for: no scalar needed on a unit struct.
-    fn mechanism(&self, written: &[Written]) -> String {
-        let n = self.dof;
-        let quoted =
-            |names: Vec<&str>| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-        let model = self.input.model;
-        let joints = quoted(model.joints.iter().map(|joint| joint.name.as_str()).collect());
-        let bodies = quoted(model.tree.frames.iter().map(|frame| frame.name.as_str()).collect());
-        let mut constants = format!(
-            "        const NQ: usize = {n};\n        const NV: usize = {n};\n        const NU: usize = {n};\n        \
-             const NAME: &'static str = {:?};\n        const JOINT_NAMES: &'static [&'static str] = &[{joints}];\n        \
-             const BODY_NAMES: &'static [&'static str] = &[{bodies}];\n",
-            model.name
-        );
-        constants.push_str("        const LIMITS: &'static [JointLimits] = &[\n");
-        for joint in &model.joints {
-            let _ = writeln!(constants, "            {},", limits(joint.limits));
-        }
-        constants.push_str("        ];\n        const COST: Costs = Costs {\n");
-        for method in written.iter().filter(|written| !methods::takes_robot(written.method)) {
-            let _ = writeln!(constants, "            {}: {},", method.method.name(), cost(method.cost));
-        }
-        if self.is_prepared() {
-            let _ =
-                writeln!(constants, "            prepare: {},", cost(self.input.compiled.preparation.cost()));
-        }
-        constants.push_str("            ..Costs::ZERO\n        };\n    }\n\n");
-        let prepared = self.prepared();
-        let mut text = self.open_without_scalar(&prepared, "Mechanism for ") + &constants;
-        if self.is_prepared() {
-            text.push_str(&self.open_without_scalar(&self.robot(), "Mechanism for "));
-            for (name, type_) in CONSTANTS {
-                let _ = writeln!(text, "        const {name}: {type_} = <{}>::{name};", prepared.type_);
-            }
-            text.push_str("    }\n\n");
-        }
-        text
-    }
-
     /// The companion, and the robot where it is another type.
-    fn types(&self) -> Vec<Host> {
+    pub(super) fn types(&self) -> Vec<Host> {
         if self.is_prepared() { vec![self.prepared(), self.robot()] } else { vec![self.robot()] }
     }
 
@@ -380,7 +257,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     }
 
     /// A method of the robot that prepares and passes on.
-    fn forwarding(&self, method: Method, receiver: &str, callee: &str) -> String {
+    pub(super) fn forwarding(&self, method: Method, receiver: &str, callee: &str) -> String {
         let (scalar, n) = (&self.scalar, self.dof);
         let mut arguments = receiver.to_owned();
         for argument in method.arguments() {
@@ -417,89 +294,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
         }
         text
     }
-
-    /// The zero-sized types of the frames, in a module of their own and re-exported by a glob, so that two
-    /// robots may have bodies of one name.
-    fn frame_types(&self) -> String {
-        let Item { name, visibility, .. } = self.item;
-        let module = frames_module(name);
-        // The module's own visibility bounds that of its types; `pub(super)` would mean another module in it.
-        let mut text = format!(
-            "/// The frames of [`{name}`], for `pose` and `jacobian`.\n#[allow({}, reason = \"generated code\")]\n\
-             {visibility}mod {module} {{\n",
-            allowed("dead_code, unreachable_pub")
-        );
-        for (type_, frame) in self.frame_types.iter().zip(&self.input.model.tree.frames) {
-            let _ = writeln!(text, "    /// The frame `{}`.", frame.name);
-            text.push_str("    #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]\n");
-            let _ = writeln!(text, "    pub struct {type_};");
-        }
-        let _ = writeln!(
-            text,
-            "}}\n#[allow({}, reason = \"two robots may share a name\")]",
-            allowed("unused_imports, unreachable_pub, ambiguous_glob_reexports")
-        );
-        let _ = writeln!(text, "{visibility}use {module}::*;\n");
-        text
-    }
-
-    fn frames(&self, written: &[Written]) -> String {
-        let mut text = String::new();
-        let module = frames_module(&self.item.name);
-        for (k, (type_, frame)) in self.frame_types.iter().zip(&self.input.model.tree.frames).enumerate() {
-            let (scalar, n) = (&self.scalar, self.dof);
-            let of_frame = [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)];
-            let chosen: Vec<&Written> = written.iter().filter(|w| of_frame.contains(&w.method)).collect();
-            if chosen.is_empty() {
-                continue;
-            }
-            let type_ = format!("{module}::{type_}");
-            let (robot, prepared) = (self.robot(), self.prepared());
-            let trait_ = |host: &Host| format!("Frame<{}, {scalar}, {n}, {n}>", host.type_);
-            text.push_str(&self.open(&prepared, &trait_(&prepared), &type_));
-            let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
-            text.push_str("        const COST: FrameCosts = FrameCosts {\n");
-            for part in &chosen {
-                let _ = writeln!(text, "            {}: {},", part.method.name(), cost(part.cost));
-            }
-            text.push_str("        };\n\n");
-            let bodies: Vec<String> = chosen.iter().map(|w| indented(&w.text)).collect();
-            text.push_str(&bodies.join("\n"));
-            text.push_str("    }\n\n");
-            if self.is_prepared() {
-                text.push_str(&self.open(&robot, &trait_(&robot), &type_));
-                let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
-                let of_prepared = format!("<Self as {}>::COST", trait_(&prepared));
-                let _ = writeln!(text, "        const COST: FrameCosts = {of_prepared};\n");
-                for method in &chosen {
-                    let receiver = format!("robot: &{}", robot.type_);
-                    let callee = format!("<Self as {}>::", trait_(&prepared));
-                    let call = self.forwarding(method.method, &receiver, &callee);
-                    text.push_str(&call.replace("(q)\n", "(&robot.prepare(), q)\n"));
-                }
-                text.push_str("    }\n\n");
-            }
-        }
-        text
-    }
 }
-
-/// The module that holds a robot's frames.
-pub(super) fn frames_module(robot: &str) -> String {
-    crate::model::names::snake_case(robot) + "_frames"
-}
-
-/// The constants of the trait `Mechanism`.
-const CONSTANTS: [(&str, &str); 8] = [
-    ("NQ", "usize"),
-    ("NV", "usize"),
-    ("NU", "usize"),
-    ("NAME", "&'static str"),
-    ("JOINT_NAMES", "&'static [&'static str]"),
-    ("BODY_NAMES", "&'static [&'static str]"),
-    ("LIMITS", "&'static [JointLimits]"),
-    ("COST", "Costs"),
-];
 
 /// The names of the parameters in code: those of the fields, where these are names of variables and no others.
 fn parameter_names(input: &Input<'_, '_>) -> Vec<String> {
@@ -529,38 +324,7 @@ fn field_names(input: &Input<'_, '_>, parameters: &[String]) -> Vec<String> {
     input.compiled.companion.fields.iter().map(name).collect()
 }
 
-fn limits(limits: Limits) -> String {
-    let Limits { lower, upper, velocity, effort } = limits;
-    let number = |x: f64| match x {
-        f64::INFINITY => "f64::INFINITY".to_owned(),
-        f64::NEG_INFINITY => "f64::NEG_INFINITY".to_owned(),
-        x => format!("{x:?}"),
-    };
-    format!(
-        "JointLimits {{ lower: {}, upper: {}, velocity: {}, effort: {} }}",
-        number(lower),
-        number(upper),
-        number(velocity),
-        number(effort)
-    )
-}
-
-fn cost(cost: Cost) -> String {
-    let entries = [
-        ("multiplications", cost.multiplications),
-        ("additions", cost.additions),
-        ("divisions", cost.divisions),
-        ("square_roots", cost.square_roots),
-        ("sines_and_cosines", cost.sines_and_cosines),
-    ];
-    let mut text = "Cost { ".to_owned();
-    for (name, count) in entries.iter().filter(|(_, count)| *count > 0) {
-        let _ = write!(text, "{name}: {count}, ");
-    }
-    text + "..Cost::ZERO }"
-}
-
 /// The lines, one level further in.
-fn indented(text: &str) -> String {
+pub(super) fn indented(text: &str) -> String {
     text.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("    {line}\n") }).collect()
 }

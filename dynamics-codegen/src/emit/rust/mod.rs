@@ -1,8 +1,12 @@
 //! Rust: the impls of one robot, as text that a person would sign.
 
 mod body;
+mod check;
+mod companion;
+mod frames;
 mod item;
 mod items;
+mod mechanism;
 mod methods;
 mod names;
 mod stub;

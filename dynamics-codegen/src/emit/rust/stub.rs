@@ -3,8 +3,8 @@
 use proc_macro2::{Ident, Span, TokenStream};
 use quote::{format_ident, quote};
 
+use super::frames::frames_module;
 use super::item::{bounded, without_bounds};
-use super::items::frames_module;
 use crate::diagnostics::Diagnostics;
 use crate::model::names::frame_type;
 use crate::spec::{self, JointKind, RobotSpec};
@@ -54,7 +54,9 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
     let companion = has_companion
         .then(|| quote!(#[allow(unused, missing_docs)] #vis type #companion #declared = #name #arguments;));
     let prepare = match spec.fields.is_empty() {
-        true => quote!(#vis fn prepare(&self) -> &Self { self }),
+        true => {
+            quote!(#vis fn prepare(&self) -> &Self { self } #vis fn check(&self) -> ::core::result::Result<(), Error> { ::core::result::Result::Ok(()) })
+        }
         false => quote!(#vis fn prepare(&self) -> Self { loop {} }),
     };
     quote! {

@@ -169,7 +169,8 @@ impl Definitions {
                 }
                 std::cmp::Ordering::Equal => {
                     common.push(a);
-                    (x.next(), y.next());
+                    x.next();
+                    y.next();
                 }
             }
         }

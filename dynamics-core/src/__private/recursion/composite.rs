@@ -20,10 +20,9 @@ use nalgebra::{SMatrix, SVector};
 use super::motion::Motion;
 use super::place::{Body, Moments};
 use super::screw::{Twist, Wrench};
-use super::sweep::{each, set};
+use super::sweep::{each, set, zeros};
 use super::vector::{Matrix, Vector};
 use super::{Tree, entries};
-use crate::__private::columns;
 use crate::dynamics::{EquationsOfMotion, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
@@ -31,7 +30,9 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
     /// The mass matrix `M(q)`, both halves.
     pub fn mass_matrix(&self, q: &SVector<T, N>) -> SMatrix<T, N, N> {
         let bodies = self.place(entries(q));
-        self.mass_matrix_of(&bodies, &self.composite_moments(&bodies))
+        let mut m = zeros();
+        self.write_mass_matrix(&bodies, &self.composite_moments(&bodies), &mut m);
+        m
     }
 
     /// The Coriolis matrix `C(q,v)` of Christoffel symbols.
@@ -39,7 +40,9 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         let bodies = self.place(entries(q));
         let motions = self.motions(&bodies, entries(v));
         let composites = self.composites(&bodies, &motions, &self.composite_moments(&bodies));
-        self.coriolis_matrix_of(&composites, T::one())
+        let mut c = zeros();
+        self.write_coriolis_matrix(&composites, T::one(), &mut c);
+        c
     }
 
     /// `M`, `C` and `G`.
@@ -47,12 +50,12 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         let bodies = self.place(entries(q));
         let motions = self.motions(&bodies, entries(v));
         let moments = self.composite_moments(&bodies);
+        let gravity_forces = self.gravity_forces_on(&bodies, &moments);
+        let mut result = EquationsOfMotion { mass_matrix: zeros(), coriolis_matrix: zeros(), gravity_forces };
+        self.write_mass_matrix(&bodies, &moments, &mut result.mass_matrix);
         let composites = self.composites(&bodies, &motions, &moments);
-        EquationsOfMotion {
-            mass_matrix: self.mass_matrix_of(&bodies, &moments),
-            coriolis_matrix: self.coriolis_matrix_of(&composites, T::one()),
-            gravity_forces: self.gravity_forces_on(&bodies, &moments),
-        }
+        self.write_coriolis_matrix(&composites, T::one(), &mut result.coriolis_matrix);
+        result
     }
 
     /// `∂τ/∂q`, `∂τ/∂v = 2C` and `∂τ/∂a = M` of inverse dynamics.
@@ -62,17 +65,29 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         v: &SVector<T, N>,
         a: &SVector<T, N>,
     ) -> InverseDynamicsDerivatives<T, N> {
+        let mut result = InverseDynamicsDerivatives { dtau_dq: zeros(), dtau_dv: zeros(), dtau_da: zeros() };
+        let InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da } = &mut result;
+        self.write_inverse_dynamics_derivatives(q, v, a, [dtau_dq, dtau_dv, dtau_da]);
+        result
+    }
+
+    /// `∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a` into matrices that are zero.
+    pub(super) fn write_inverse_dynamics_derivatives(
+        &self,
+        q: &SVector<T, N>,
+        v: &SVector<T, N>,
+        a: &SVector<T, N>,
+        [dtau_dq, dtau_dv, dtau_da]: [&mut SMatrix<T, N, N>; 3],
+    ) {
         let bodies = self.place(entries(q));
         let motions = self.motions(&bodies, entries(v));
         let accelerations = self.accelerations(&bodies, &motions, entries(a));
         let wrenches = self.wrenches(&bodies, &motions, &accelerations);
         let moments = self.composite_moments(&bodies);
         let composites = self.composites(&bodies, &motions, &moments);
-        InverseDynamicsDerivatives {
-            dtau_dq: self.stiffness_matrix_of(&composites, &motions, &accelerations, &wrenches),
-            dtau_dv: self.coriolis_matrix_of(&composites, T::of(2.0)),
-            dtau_da: self.mass_matrix_of(&bodies, &moments),
-        }
+        self.write_stiffness_matrix(&composites, &motions, &accelerations, &wrenches, dtau_dq);
+        self.write_coriolis_matrix(&composites, T::of(2.0), dtau_dv);
+        self.write_mass_matrix(&bodies, &moments, dtau_da);
     }
 
     /// The moments of all that hangs on each joint.
@@ -80,39 +95,38 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         self.collect_tip_to_base(bodies, bodies.map(|body| body.moments), Moments::shifted)
     }
 
-    fn mass_matrix_of(&self, bodies: &[Body<T>; N], moments: &[Moments<T>; N]) -> SMatrix<T, N, N> {
-        let mut entries = [[T::zero(); N]; N];
+    fn write_mass_matrix(&self, bodies: &[Body<T>; N], moments: &[Moments<T>; N], m: &mut SMatrix<T, N, N>) {
         for (j, (body, moments)) in bodies.iter().zip(moments).enumerate() {
             let mut wrench = moments.wrench_of(body.twist());
             for k in self.path_to_base(Some(j)) {
                 let Some(ancestor) = bodies.get(k) else { continue };
                 let entry = ancestor.along_joint(wrench);
-                set(&mut entries, j, k, entry);
-                set(&mut entries, k, j, entry);
+                set(m, j, k, entry);
+                set(m, k, j, entry);
                 wrench = wrench.shifted(ancestor.offset);
             }
         }
-        columns(entries)
     }
 
     /// `factor·C`
-    fn coriolis_matrix_of(&self, composites: &[Composite<T>; N], factor: T) -> SMatrix<T, N, N> {
+    fn write_coriolis_matrix(&self, composites: &[Composite<T>; N], factor: T, c: &mut SMatrix<T, N, N>) {
         let changes = each(composites, Change::zero(), |composite| Change {
             by_moments: composite.rate.scaled(factor),
             by_momenta: composite.body.twist().angular.scaled(factor),
             by_wrench: Wrench::zero(),
         });
-        self.matrix_of(composites, &changes)
+        self.write_matrix(composites, &changes, c);
     }
 
     /// `∂τ/∂q`, given all accelerations and the wrench on each composite body.
-    fn stiffness_matrix_of(
+    fn write_stiffness_matrix(
         &self,
         composites: &[Composite<T>; N],
         motions: &[Motion<T>; N],
         accelerations: &[Twist<T>; N],
         wrenches: &[Wrench<T>; N],
-    ) -> SMatrix<T, N, N> {
+        k: &mut SMatrix<T, N, N>,
+    ) {
         let items = composites.iter().zip(motions).zip(accelerations.iter().zip(wrenches));
         let changes = each(items, Change::zero(), |((composite, motion), (acceleration, wrench))| {
             let Twist { angular: w, linear: v } = motion.velocity;
@@ -125,13 +139,17 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
                 by_wrench: twist.cross_wrench(*wrench),
             }
         });
-        self.matrix_of(composites, &changes)
+        self.write_matrix(composites, &changes, k);
     }
 
     /// `tr(Ŝ_i (𝕁 t̂_jᵀ + 𝔹 r̂_jᵀ))` for the twists `t` and turns `r` of each change, and its wrench in column `j`
     /// above the diagonal; on it the wrench of a joint has no part.
-    fn matrix_of(&self, composites: &[Composite<T>; N], changes: &[Change<T>; N]) -> SMatrix<T, N, N> {
-        let mut entries = [[T::zero(); N]; N];
+    fn write_matrix(
+        &self,
+        composites: &[Composite<T>; N],
+        changes: &[Change<T>; N],
+        m: &mut SMatrix<T, N, N>,
+    ) {
         for (j, (outer, change)) in composites.iter().zip(changes).enumerate() {
             let twist = outer.body.twist();
             let turned = outer.momenta.wrench_of(change.by_momenta) + change.by_wrench;
@@ -140,13 +158,12 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
             let row_of_turns = outer.momenta.row_of(twist);
             for k in self.path_to_base(Some(j)) {
                 let (Some(inner), Some(change)) = (composites.get(k), changes.get(k)) else { continue };
-                set(&mut entries, k, j, inner.body.along_joint(column));
-                set(&mut entries, j, k, change.by_moments.dot(row) + row_of_turns.dot(change.by_momenta));
+                set(m, k, j, inner.body.along_joint(column));
+                set(m, j, k, change.by_moments.dot(row) + row_of_turns.dot(change.by_momenta));
                 column = column.shifted(inner.body.offset);
                 row = row.shifted(inner.body.offset);
             }
         }
-        columns(entries)
     }
 
     fn composites(

@@ -5,10 +5,9 @@
 use nalgebra::SVector;
 
 use super::Tree;
-use super::sweep::set;
-use crate::__private::columns;
+use super::sweep::{set, zeros};
 use crate::__private::solve::{factor, solve_columns};
-use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
+use crate::dynamics::ForwardDynamicsDerivatives;
 use crate::scalar::Scalar;
 
 impl<T: Scalar, const N: usize> Tree<T, N> {
@@ -21,27 +20,28 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         v: &SVector<T, N>,
         tau: &SVector<T, N>,
     ) -> ForwardDynamicsDerivatives<T, N> {
+        let mut result = ForwardDynamicsDerivatives { da_dq: zeros(), da_dv: zeros(), da_dtau: zeros() };
+        let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } = &mut result;
+        let mut mass_matrix = zeros();
         let a = self.forward_dynamics(q, v, tau);
-        let InverseDynamicsDerivatives { dtau_dq: mut da_dq, dtau_dv: mut da_dv, dtau_da } =
-            self.inverse_dynamics_derivatives(q, v, &a);
+        self.write_inverse_dynamics_derivatives(q, v, &a, [da_dq, da_dv, &mut mass_matrix]);
 
         let mut buffer = [[0; N]; N];
         let ancestors = self.ancestors(&mut buffer);
-        let mut l = dtau_da.data.0;
-        let d_inv = factor(&ancestors, &mut l);
+        let l = &mut mass_matrix.data.0;
+        let d_inv = factor(&ancestors, l);
         let minus_d_inv = d_inv.map(|x| -x);
-        for derivative in [&mut da_dq, &mut da_dv] {
+        for derivative in [da_dq, da_dv] {
             let rows = &mut derivative.data.0;
             transpose(rows);
-            solve_columns(&ancestors, &l, &minus_d_inv, rows);
+            solve_columns(&ancestors, l, &minus_d_inv, rows);
             transpose(rows);
         }
 
-        // Symmetric: rows and columns are the same.
-        let mut da_dtau = [[T::zero(); N]; N];
-        (0..N).for_each(|k| set(&mut da_dtau, k, k, T::one()));
-        solve_columns(&ancestors, &l, &d_inv, &mut da_dtau);
-        ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau: columns(da_dtau) }
+        // Symmetric: its rows are its columns.
+        (0..N).for_each(|k| set(da_dtau, k, k, T::one()));
+        solve_columns(&ancestors, l, &d_inv, &mut da_dtau.data.0);
+        result
     }
 
     /// For each link the links between it and the base.

@@ -3,9 +3,12 @@
 use core::iter::successors;
 use core::ops::Add;
 
+use nalgebra::SMatrix;
+
 use super::Tree;
 use super::place::Body;
 use super::vector::Vector;
+use crate::__private::columns;
 use crate::scalar::Scalar;
 
 impl<T: Scalar, const N: usize> Tree<T, N> {
@@ -62,10 +65,15 @@ pub(super) fn each<I, S: Copy, const N: usize>(
     values
 }
 
-/// Writes an entry of a matrix that is stored by columns.
+/// The zero matrix.
+pub(super) fn zeros<T: Scalar, const N: usize>() -> SMatrix<T, N, N> {
+    columns([[T::zero(); N]; N])
+}
+
+/// Writes an entry, if there is one.
 #[inline(always)]
-pub(super) fn set<T, const N: usize>(columns: &mut [[T; N]; N], row: usize, column: usize, value: T) {
-    if let Some(entry) = columns.get_mut(column).and_then(|column| column.get_mut(row)) {
+pub(super) fn set<T, const N: usize>(m: &mut SMatrix<T, N, N>, row: usize, column: usize, value: T) {
+    if let Some(entry) = m.data.0.get_mut(column).and_then(|column| column.get_mut(row)) {
         *entry = value;
     }
 }

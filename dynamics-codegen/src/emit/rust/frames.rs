@@ -1,0 +1,81 @@
+//! The frames: zero-sized types, and their kinematics.
+
+use std::fmt::Write as _;
+
+use super::Item;
+use super::items::{Emitter, Host, allowed, indented};
+use super::mechanism::cost;
+use super::methods::Written;
+use crate::mechanics::equations::Method;
+
+impl Emitter<'_, '_> {
+    /// The zero-sized types of the frames, in a module of their own and re-exported by a glob, so that two
+    /// robots may have bodies of one name.
+    pub(super) fn frame_types(&self) -> String {
+        let Item { name, visibility, .. } = self.item;
+        let module = frames_module(name);
+        // The module's own visibility bounds that of its types; `pub(super)` would mean another module in it.
+        let mut text = format!(
+            "/// The frames of [`{name}`], for `pose` and `jacobian`.\n#[allow({}, reason = \"generated code\")]\n\
+             {visibility}mod {module} {{\n",
+            allowed("dead_code, unreachable_pub")
+        );
+        for (type_, frame) in self.frame_types.iter().zip(&self.input.model.tree.frames) {
+            let _ = writeln!(text, "    /// The frame `{}`.", frame.name);
+            text.push_str("    #[derive(::core::clone::Clone, ::core::marker::Copy, ::core::fmt::Debug)]\n");
+            let _ = writeln!(text, "    pub struct {type_};");
+        }
+        let _ = writeln!(
+            text,
+            "}}\n#[allow({}, reason = \"two robots may share a name\")]",
+            allowed("unused_imports, unreachable_pub, ambiguous_glob_reexports")
+        );
+        let _ = writeln!(text, "{visibility}use {module}::*;\n");
+        text
+    }
+
+    pub(super) fn frames(&self, written: &[Written]) -> String {
+        let mut text = String::new();
+        let module = frames_module(&self.item.name);
+        for (k, (type_, frame)) in self.frame_types.iter().zip(&self.input.model.tree.frames).enumerate() {
+            let (scalar, n) = (&self.scalar, self.dof);
+            let of_frame = [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)];
+            let chosen: Vec<&Written> = written.iter().filter(|w| of_frame.contains(&w.method)).collect();
+            if chosen.is_empty() {
+                continue;
+            }
+            let type_ = format!("{module}::{type_}");
+            let (robot, prepared) = (self.robot(), self.prepared());
+            let trait_ = |host: &Host| format!("Frame<{}, {scalar}, {n}, {n}>", host.type_);
+            text.push_str(&self.open(&prepared, &trait_(&prepared), &type_));
+            let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
+            text.push_str("        const COST: FrameCosts = FrameCosts {\n");
+            for part in &chosen {
+                let _ = writeln!(text, "            {}: {},", part.method.name(), cost(part.cost));
+            }
+            text.push_str("        };\n\n");
+            let bodies: Vec<String> = chosen.iter().map(|w| indented(&w.text)).collect();
+            text.push_str(&bodies.join("\n"));
+            text.push_str("    }\n\n");
+            if self.is_prepared() {
+                text.push_str(&self.open(&robot, &trait_(&robot), &type_));
+                let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
+                let of_prepared = format!("<Self as {}>::COST", trait_(&prepared));
+                let _ = writeln!(text, "        const COST: FrameCosts = {of_prepared};\n");
+                for method in &chosen {
+                    let receiver = format!("robot: &{}", robot.type_);
+                    let callee = format!("<Self as {}>::", trait_(&prepared));
+                    let call = self.forwarding(method.method, &receiver, &callee);
+                    text.push_str(&call.replace("(q)\n", "(&robot.prepare(), q)\n"));
+                }
+                text.push_str("    }\n\n");
+            }
+        }
+        text
+    }
+}
+
+/// The module that holds a robot's frames.
+pub(super) fn frames_module(robot: &str) -> String {
+    crate::model::names::snake_case(robot) + "_frames"
+}

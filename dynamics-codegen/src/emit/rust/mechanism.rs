@@ -1,0 +1,92 @@
+//! The trait `Mechanism`: what is constant about a robot.
+
+use std::fmt::Write as _;
+
+use super::items::Emitter;
+use super::methods::{self, Written};
+use crate::model::Limits;
+use crate::passes::Cost;
+
+impl Emitter<'_, '_> {
+    /// The types that the constants are implemented for: no scalar needed on a unit struct.
+    pub(super) fn mechanism(&self, written: &[Written]) -> String {
+        let n = self.dof;
+        let quoted =
+            |names: Vec<&str>| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
+        let model = self.input.model;
+        let joints = quoted(model.joints.iter().map(|joint| joint.name.as_str()).collect());
+        let bodies = quoted(model.tree.frames.iter().map(|frame| frame.name.as_str()).collect());
+        let mut constants = format!(
+            "        const NQ: usize = {n};\n        const NV: usize = {n};\n        const NU: usize = {n};\n        \
+             const NAME: &'static str = {:?};\n        const JOINT_NAMES: &'static [&'static str] = &[{joints}];\n        \
+             const BODY_NAMES: &'static [&'static str] = &[{bodies}];\n",
+            model.name
+        );
+        constants.push_str("        const LIMITS: &'static [JointLimits] = &[\n");
+        for joint in &model.joints {
+            let _ = writeln!(constants, "            {},", limits(joint.limits));
+        }
+        constants.push_str("        ];\n        const COST: Costs = Costs {\n");
+        for method in written.iter().filter(|written| !methods::takes_robot(written.method)) {
+            let _ = writeln!(constants, "            {}: {},", method.method.name(), cost(method.cost));
+        }
+        if self.is_prepared() {
+            let _ =
+                writeln!(constants, "            prepare: {},", cost(self.input.compiled.preparation.cost()));
+        }
+        constants.push_str("            ..Costs::ZERO\n        };\n    }\n\n");
+        let prepared = self.prepared();
+        let mut text = self.open_without_scalar(&prepared, "Mechanism for ") + &constants;
+        if self.is_prepared() {
+            text.push_str(&self.open_without_scalar(&self.robot(), "Mechanism for "));
+            for (name, type_) in CONSTANTS {
+                let _ = writeln!(text, "        const {name}: {type_} = <{}>::{name};", prepared.type_);
+            }
+            text.push_str("    }\n\n");
+        }
+        text
+    }
+}
+
+/// The constants of the trait `Mechanism`.
+const CONSTANTS: [(&str, &str); 8] = [
+    ("NQ", "usize"),
+    ("NV", "usize"),
+    ("NU", "usize"),
+    ("NAME", "&'static str"),
+    ("JOINT_NAMES", "&'static [&'static str]"),
+    ("BODY_NAMES", "&'static [&'static str]"),
+    ("LIMITS", "&'static [JointLimits]"),
+    ("COST", "Costs"),
+];
+
+fn limits(limits: Limits) -> String {
+    let Limits { lower, upper, velocity, effort } = limits;
+    let number = |x: f64| match x {
+        f64::INFINITY => "f64::INFINITY".to_owned(),
+        f64::NEG_INFINITY => "f64::NEG_INFINITY".to_owned(),
+        x => format!("{x:?}"),
+    };
+    format!(
+        "JointLimits {{ lower: {}, upper: {}, velocity: {}, effort: {} }}",
+        number(lower),
+        number(upper),
+        number(velocity),
+        number(effort)
+    )
+}
+
+pub(super) fn cost(cost: Cost) -> String {
+    let entries = [
+        ("multiplications", cost.multiplications),
+        ("additions", cost.additions),
+        ("divisions", cost.divisions),
+        ("square_roots", cost.square_roots),
+        ("sines_and_cosines", cost.sines_and_cosines),
+    ];
+    let mut text = "Cost { ".to_owned();
+    for (name, count) in entries.iter().filter(|(_, count)| *count > 0) {
+        let _ = write!(text, "{name}: {count}, ");
+    }
+    text + "..Cost::ZERO }"
+}
