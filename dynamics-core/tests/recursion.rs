@@ -392,6 +392,13 @@ fn frames<const N: usize>() {
     });
 }
 
+fn with_stack(bytes: usize, run: impl FnOnce() + Send + 'static) {
+    let thread = std::thread::Builder::new().stack_size(bytes).spawn(run).expect("a thread with its stack");
+    if let Err(panic) = thread.join() {
+        std::panic::resume_unwind(panic);
+    }
+}
+
 macro_rules! for_every_size {
     ($($law:ident: $name:ident;)*) => {$(
         #[test]
@@ -400,7 +407,7 @@ macro_rules! for_every_size {
             $law::<2>();
             $law::<6>();
             $law::<12>();
-            $law::<100>();
+            with_stack(16 << 20, $law::<100>); // for the matrices of the test itself, many and dual
         }
     )*};
 }
@@ -509,6 +516,25 @@ fn single_precision_agrees_with_double() {
         let c = single.coriolis_matrix(&q32, &v32).map(f64::from);
         close(&c, &robot.tree.coriolis_matrix(&q, &v), 1e-4);
     });
+}
+
+/// Unoptimised, and with the results (up to 240 kB) on the same stack.
+#[test]
+fn a_hundred_joints_fit_on_a_small_stack() {
+    type Call = fn(&Tree<f64, 100>, &SVector<f64, 100>) -> f64;
+    let calls: [Call; 6] = [
+        |tree, x| tree.inverse_dynamics(x, x, x)[0],
+        |tree, x| tree.forward_dynamics(x, x, x)[0],
+        |tree, x| tree.lagrangian(x, x),
+        |tree, x| tree.equations_of_motion(x, x).coriolis_matrix[0],
+        |tree, x| tree.inverse_dynamics_derivatives(x, x, x).dtau_dq[0],
+        |tree, x| tree.forward_dynamics_derivatives(x, x, x).da_dq[0],
+    ];
+    let tree = Box::new(Robot::<100>::random(Shape::Chain, 4).tree);
+    for call in calls {
+        let tree = tree.clone();
+        with_stack(1_500 << 10, move || assert!(call(&tree, &SVector::repeat(0.5)).is_finite()));
+    }
 }
 
 /// A parent that is not smaller is the world: nothing panics, nothing runs for ever.

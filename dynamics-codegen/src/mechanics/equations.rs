@@ -216,6 +216,9 @@ const LARGEST_FOR_MATRICES: usize = 3;
 /// The shortest chain for which articulated bodies may be cheaper than factoring the mass matrix.
 const SHORTEST_FOR_ARTICULATED_BODIES: usize = 8;
 
+/// The longest chain for which factoring the mass matrix may be cheaper than articulated bodies.
+const LONGEST_FOR_FACTORING: usize = 16;
+
 /// A robot about to be derived: its trees and its inputs.
 #[derive(Clone)]
 pub struct Derivation<'g> {
@@ -264,13 +267,29 @@ impl<'g> Derivation<'g> {
 
     /// What a method returns, derived in one or more ways of which the cheapest may be taken.
     pub fn alternatives(&self, method: Method) -> Vec<Vec<Block<'g>>> {
+        if method == Method::ForwardDynamics {
+            return self.forward_dynamics_alternatives();
+        }
         let mut alternatives = vec![self.blocks(method)];
         if self.inputs.dof <= LARGEST_FOR_MATRICES {
             alternatives.extend(self.blocks_by_matrices(method));
         }
-        if method == Method::ForwardDynamics && self.longest_chain() >= SHORTEST_FOR_ARTICULATED_BODIES {
-            alternatives
-                .push(vec![vector("a", aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &self.tau))]);
+        alternatives
+    }
+
+    /// By factoring the mass matrix, by articulated bodies, or both where either may win.
+    fn forward_dynamics_alternatives(&self) -> Vec<Vec<Block<'g>>> {
+        let chain = self.longest_chain();
+        let mut alternatives = Vec::new();
+        if chain <= LONGEST_FOR_FACTORING {
+            alternatives.push(self.blocks(Method::ForwardDynamics));
+        }
+        if self.inputs.dof <= LARGEST_FOR_MATRICES {
+            alternatives.extend(self.blocks_by_matrices(Method::ForwardDynamics));
+        }
+        if chain >= SHORTEST_FOR_ARTICULATED_BODIES {
+            let a = aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &self.tau);
+            alternatives.push(vec![vector("a", a)]);
         }
         alternatives
     }

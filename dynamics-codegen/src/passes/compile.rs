@@ -2,6 +2,7 @@
 
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans};
+use super::schedule::schedule;
 use super::share::share;
 use super::table;
 use super::{Companion, Cost, Operand, Program, Source};
@@ -58,7 +59,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let table = methods.iter().any(|&method| plan.form(method) == Form::Table).then(|| table::entries(model));
     let companion = Companion::of(graph, &equations, table.as_deref().unwrap_or_default());
     let inputs = derivation.inputs;
-    let program_of = |results: &[Expr<'g>]| Program::of(graph, inputs, results, |node| companion.read(node));
+    let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
     let mut equations = equations.into_iter();
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
     for &method in methods {
@@ -120,7 +121,7 @@ fn best_unit(derivation: &Derivation<'_>) -> Number {
     }
     let cost = |unit: &Number| {
         let entries = entries(&derivation.in_unit(*unit).blocks(Method::InverseDynamics));
-        arithmetic(Program::of(derivation.graph, derivation.inputs, &entries, |_| None).cost())
+        arithmetic(schedule(derivation.graph, derivation.inputs, &entries, |_| None).cost())
     };
     units.into_iter().min_by_key(cost).unwrap_or(Number::ONE)
 }
@@ -132,7 +133,7 @@ fn cheapest<'g>(derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
     let at_hand = Operand { source: Source::Field(0), negative: false };
     let is_free = |node| graph.is_parameter_only(node).then_some(at_hand);
     let cost = |blocks: &Vec<Block<'g>>| {
-        arithmetic(Program::of(graph, derivation.inputs, &entries(blocks), is_free).cost())
+        arithmetic(schedule(graph, derivation.inputs, &entries(blocks), is_free).cost())
     };
     let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
     for blocks in derivation.alternatives(method) {

@@ -4,6 +4,7 @@ use rustc_hash::FxHashMap;
 
 use super::parameters::{Normaliser, reads_negative};
 use super::program::{Operand, Program, Source};
+use super::schedule::schedule;
 use super::share::share;
 use crate::mechanics::equations::{Equation, Inputs};
 use crate::symbolic::{Expr, Graph, NodeId, Op};
@@ -37,7 +38,7 @@ impl<'g> Companion<'g> {
     /// How the fields are computed from the parameters.
     pub fn program(&self, graph: &'g Graph, inputs: Inputs) -> Program {
         let shared = share(graph, &self.fields, |_| false);
-        Program::of(graph, inputs, &shared, |_| None)
+        schedule(graph, inputs, &shared, |_| None)
     }
 
     /// A field for the value, or for its negative if that reads better.

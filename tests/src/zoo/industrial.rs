@@ -22,7 +22,7 @@ robot! {
     /// PUMA 560 by Denavit and Hartenberg's parameters, centres and moments in the distal frames: B. Armstrong,
     /// O. Khatib, J. Burdick 1986, as collected by P. Corke, B. Armstrong-Hélouvry 1994.
     #[joint(joint1: revolute, world -> link1, dh(0, 90deg, 671.83mm, 0), limits = [-160deg, 160deg])]
-    #[body(link1, mass = 1, inertia = diag(0, 0.35, 0), allow(nonphysical_inertia))]
+    #[body(link1, mass = 0, inertia = diag(0, 0.35, 0), allow(nonphysical_inertia))]
     #[joint(joint2: revolute, link1 -> link2, dh(431.8mm, 0, 0, 0), limits = [-110deg, 110deg])]
     #[body(link2, mass = 17.4, com = [-0.3638, 0.006, 0.2275], inertia = diag(0.13, 0.524, 0.539))]
     #[joint(joint3: revolute, link2 -> link3, dh(20.3mm, -90deg, 150.05mm, 0), limits = [-135deg, 135deg])]
@@ -42,10 +42,9 @@ robot! {
     [Link1, Link2, Link3, Link4, Link5, Link6, Tool];
     /// PUMA 560 by the numbers of `puma560/model.urdf`.
     ///
-    /// The published first link has a moment and no mass. A mass on the first axis moves nothing, and adds a constant
-    /// to V.
+    /// The published first link has a moment and no mass.
     #[joint(joint1: revolute(z), world -> link1, limits = [-2.792526803190927, 2.792526803190927])]
-    #[body(link1, mass = 1, com = [0, 0, 0.6718299999999999], inertia = diag(0, 0.35, 0),
+    #[body(link1, mass = 0, com = [0, 0, 0.6718299999999999], inertia = diag(0, 0.35, 0),
         inertia_rpy = [1.5707963267948966, 0, 0], allow(nonphysical_inertia))]
     #[joint(joint2: revolute(z), link1 -> link2, at = [0, 0, 0.6718299999999999],
         rpy = [1.5707963267948966, 0, 0], limits = [-1.9198621771937625, 1.9198621771937625])]

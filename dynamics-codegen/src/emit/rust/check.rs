@@ -19,7 +19,7 @@ impl Emitter<'_, '_> {
         );
         let ordered = match &self.item.form {
             Form::Generic(parameter) => {
-                format!("\n        where\n            {parameter}: PartialOrd,\n        ")
+                format!("\n        where\n            {parameter}: ::core::cmp::PartialOrd,\n        ")
             }
             Form::Concrete(_) | Form::Unit => " ".to_owned(),
         };

@@ -4,7 +4,7 @@
 //! With `Ŝ` the 4×4 matrix of a joint's twist, of the composite body beyond the outer of joints i and j,
 //!
 //! ```text
-//! C_ij    = tr(Ŝ_i (𝕁 dŜ_jᵀ/dt + 𝔹 Ŝ_jᵀ))
+//! C_ij      = tr(Ŝ_i (𝕁 dŜ_jᵀ/dt + 𝔹 Ŝ_jᵀ))
 //! ∂τ_i/∂v_j = 2 C_ij
 //! ∂τ_i/∂q_j = tr(Ŝ_i (𝕁 d²Ŝ_jᵀ/dt² + 2 𝔹 dŜ_jᵀ/dt))   and S_i·(S_j ×* F_j) where j is the outer one
 //! ```
