@@ -18,8 +18,10 @@ pub mod spatial;
 pub mod spec;
 pub mod symbolic;
 
-use diagnostics::{Code, Diagnostics};
+use diagnostics::{Code, Diagnostic, Diagnostics};
 use proc_macro2::{Span, TokenStream};
+use spec::RobotSpec;
+use spec::urdf::{Report, Urdf};
 use symbolic::Graph;
 
 /// The deepest nesting of groups that is read at all: what reads tokens recurses.
@@ -28,8 +30,9 @@ const NESTING_LIMIT: usize = 128;
 /// Expands `#[derive(Dynamics)]`.
 ///
 /// Wrong input becomes `compile_error!`s at the user's tokens and a stub of every impl, so that one mistake in
-/// a robot is reported once and not again at every use of the robot.
-pub fn derive(input: TokenStream) -> TokenStream {
+/// a robot is reported once and not again at every use of the robot. A file that the robot names is had from
+/// `read`, by its path from the crate's root: the compiler itself reads none.
+pub fn derive(input: TokenStream, read: impl FnOnce(&str) -> Result<Vec<u8>, String>) -> TokenStream {
     if spec::nested_deeper_than(&input, NESTING_LIMIT) {
         let mut diags = Diagnostics::new();
         let message = format!("groups are nested more than {NESTING_LIMIT} deep");
@@ -40,7 +43,7 @@ pub fn derive(input: TokenStream) -> TokenStream {
         Ok(input) => input,
         Err(error) => return error.into_compile_error(),
     };
-    match generate(&input) {
+    match generate_with(&input, read) {
         Ok(text) => text.parse().expect("generated text is made of whole tokens"),
         Err(diagnostics) => {
             let mut tokens = diagnostics.into_compile_errors();
@@ -50,34 +53,118 @@ pub fn derive(input: TokenStream) -> TokenStream {
     }
 }
 
-/// The code for a robot, as text: the whole compiler, in order. Each phase sees only the one before it, and
-/// runs only if that found nothing wrong.
+/// A `read` for [`derive()`] where there are no files.
+///
+/// # Errors
+///
+/// Always.
+pub fn no_files(_: &str) -> Result<Vec<u8>, String> {
+    Err("there are no files here".to_owned())
+}
+
+/// The code for a robot whose struct says all, as text.
 ///
 /// # Errors
 ///
 /// All mistakes of the first phase that found any.
 pub fn generate(input: &syn::DeriveInput) -> Result<String, Diagnostics> {
+    generate_with(input, no_files)
+}
+
+/// The code for a robot, as text; a file that it names is had from `read`, and tracked by the code.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+pub fn generate_with(
+    input: &syn::DeriveInput,
+    read: impl FnOnce(&str) -> Result<Vec<u8>, String>,
+) -> Result<String, Diagnostics> {
+    let mut diags = Diagnostics::new();
+    let mut spec = spec::parse(input, &mut diags); //            what was written
+    diags.check()?;
+    let Some(path) = spec.options.urdf.clone() else { return compile(&spec) };
+    let checked = spec::urdf::check_path(&path);
+    let bytes = checked.and_then(|()| {
+        read(&path.text).map_err(|why| {
+            let message = format!("the file `{}` cannot be read: {why}", path.text);
+            Diagnostic::new(Code::FileUnreadable, &path.place, message)
+        })
+    });
+    if let Some(bytes) = diags.keep(bytes)
+        && let Some(text) = diags.keep(spec::urdf::text_of(&path.text, &bytes))
+    {
+        spec::urdf::read(&mut spec, Urdf { file: &path.text, text }, &mut diags);
+    }
+    diags.check()?;
+    // The path is one of the crate: absolute, the code would differ from machine to machine.
+    let tracked = format!(
+        "const _: &[u8] = ::core::include_bytes!(::core::concat!(::core::env!(\"CARGO_MANIFEST_DIR\"), {:?}));\n",
+        format!("/{}", path.text)
+    );
+    Ok(compile(&spec)? + &tracked)
+}
+
+/// The robot of a URDF as it was written, for a public unit struct `name`, and what became of the file. `options`
+/// are those of `#[dynamics(…)]`, as `snap = off`.
+///
+/// # Errors
+///
+/// All mistakes in the options, or in the file.
+pub fn read_urdf(name: &str, urdf: Urdf<'_>, options: &str) -> Result<(RobotSpec, Report), Diagnostics> {
+    let mut diags = Diagnostics::new();
+    let wrong = |error: syn::Error| {
+        let place = error.span().into();
+        Diagnostic::new(Code::Syntax, &place, format!("`{name}` with the options `{options}`: {error}"))
+    };
+    let ident = syn::parse_str::<syn::Ident>(name).map_err(wrong);
+    let options = options.parse::<TokenStream>().map_err(|error| wrong(error.into()));
+    let (ident, options) = (diags.keep(ident), diags.keep(options));
+    let (Some(ident), Some(options)) = (ident, options) else { return Err(diags) };
+    let mut spec = spec::parse(&syn::parse_quote!(#[dynamics(#options)] pub struct #ident;), &mut diags);
+    if let Some(path) = &spec.options.urdf {
+        diags.error(Code::KeysConflict, &path.place, "the file is given already");
+    }
+    diags.check()?;
+    let report = spec::urdf::read(&mut spec, urdf, &mut diags);
+    diags.check()?;
+    Ok((spec, report))
+}
+
+/// The code for the robot of a URDF, for build scripts and command lines: that which the derive on
+/// `pub struct name;` has, without the struct and without tracking the file. `options` are those of
+/// `#[dynamics(…)]`, as `snap = off`.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+pub fn generate_urdf(name: &str, urdf: Urdf<'_>, options: &str) -> Result<String, Diagnostics> {
+    let (spec, _) = read_urdf(name, urdf, options)?;
+    compile(&spec)
+}
+
+/// The code for a robot: the whole compiler behind reading, in order. Each phase sees only the one before it, and
+/// runs only if that found nothing wrong.
+fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
     let mut diags = Diagnostics::new();
     let graph = Graph::new();
 
-    let spec = spec::parse(input, &mut diags); //                what was written
-    diags.check()?;
-    let model = model::build(&spec, &graph, &mut diags); //      a checked kinematic tree
+    let model = model::build(spec, &graph, &mut diags); //      a checked kinematic tree
     diags.check()?;
     let model = model.expect("a model that is not built has been complained about");
-    check_motions(&spec, &model, &graph, &mut diags);
+    check_motions(spec, &model, &graph, &mut diags);
     diags.check()?;
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
     let methods = passes::methods(outputs.as_deref(), &model);
     let compiled = passes::compile(&model, &graph, &methods); // derived, simplified, scheduled
-    check_constants(&spec, &compiled, &mut diags);
+    check_constants(spec, &compiled, &mut diags);
     diags.check()?;
-    check_against_plain_recursion(&spec, &model, &compiled, &mut diags);
+    check_against_plain_recursion(spec, &model, &compiled, &mut diags);
     diags.check()?;
 
-    let item = emit::rust::Item::of(&spec, &model);
+    let item = emit::rust::Item::of(spec, &model);
     Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
 }
 

@@ -3,6 +3,7 @@
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
+use dynamics_codegen::no_files;
 use proc_macro2::{Group, Ident, Span, TokenStream, TokenTree};
 
 const MUTANTS: usize = 2500;
@@ -134,7 +135,7 @@ fn mutant(mut tokens: TokenStream, strange: &[TokenTree], random: &mut Random) -
 /// Whether the derive answers without a panic, and in items; and whether it took the robot.
 fn answer(input: &TokenStream) -> bool {
     let text = input.to_string();
-    let output = catch_unwind(AssertUnwindSafe(|| dynamics_codegen::derive(input.clone())))
+    let output = catch_unwind(AssertUnwindSafe(|| dynamics_codegen::derive(input.clone(), no_files)))
         .unwrap_or_else(|_| panic!("a panic on\n{text}"));
     let mistake = syn::parse2::<syn::File>(output.clone()).err();
     assert!(mistake.is_none(), "{}\non\n{text}\nin\n{output}", mistake.unwrap());
@@ -145,7 +146,7 @@ fn answer(input: &TokenStream) -> bool {
 
 /// As `answer`; moments of inertia of 1e200 among those of one may fail the self-check, sound ones may not.
 fn answer_of_a_sound_robot(input: &TokenStream) -> bool {
-    let output = dynamics_codegen::derive(input.clone()).to_string();
+    let output = dynamics_codegen::derive(input.clone(), no_files).to_string();
     assert!(!output.contains("SelfCheckFailed"), "{input}\n{}", output.split_at(120).0);
     answer(input)
 }
@@ -155,7 +156,7 @@ fn no_input_panics() {
     let strange = vocabulary(STRANGE);
     let robots: Vec<TokenStream> = ROBOTS.iter().map(|text| text.parse().unwrap()).collect();
     for robot in &robots {
-        assert!(answer(robot), "{}", dynamics_codegen::derive(robot.clone()));
+        assert!(answer(robot), "{}", dynamics_codegen::derive(robot.clone(), no_files));
     }
     let mut random = Random(2026);
     for k in 0..MUTANTS {
@@ -184,6 +185,6 @@ fn deep_nesting_is_a_mistake() {
 fn numbers_whose_products_overflow_are_a_mistake() {
     let robot = "#[dynamics(gravity = [0, -1e100, 0])] #[joint(q: revolute(z), world -> a)]
         #[body(a, com = [1e20, 0, 0], solid = sphere(1e250, 1))] struct R;";
-    let output = dynamics_codegen::derive(robot.parse().unwrap()).to_string();
+    let output = dynamics_codegen::derive(robot.parse().unwrap(), no_files).to_string();
     assert!(output.contains("NumberOutOfRange"), "{output}");
 }

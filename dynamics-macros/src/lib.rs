@@ -1,5 +1,9 @@
 //! The derive macro of `dynamics-core`, which re-exports it. All thought is in `dynamics-codegen`.
 
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
 use proc_macro::TokenStream;
 
 /// Equations of motion from a robot that is written on a struct.
@@ -128,8 +132,35 @@ use proc_macro::TokenStream;
 /// | `gravity = [x, y, z]` | the acceleration of free fall in the world, m/s² | `[0, 0, -9.81]` |
 /// | `outputs(mass_matrix, …)` | the methods to emit, by their names; `pose`, `jacobian` and `world_jacobian` of all frames | all |
 /// | `allow(nonphysical_inertia)` | for all bodies | |
+/// | `urdf = "path"` | the file that has the robot, by its path from the crate's root | |
+/// | `passive = on`, `off` | whether the damping and friction of a file act; so far they cannot, and `on` refuses them | `on` |
 /// | `snap = on`, `off` | whether entries of rotations within 1e-11 of 0 and ±1 become these | `on` |
 /// | `crate = "path"` | where the crate `dynamics-core` is found | `"::dynamics_core"` |
+///
+/// # A robot from a URDF
+///
+/// ```ignore
+/// #[derive(Dynamics)]
+/// #[dynamics(urdf = "robots/iiwa14.urdf")]
+/// pub struct Iiwa14;
+/// ```
+///
+/// Links are bodies, each with its frame. The link that no joint carries is welded to the world; it is the world if its
+/// name is `world`. Coordinates follow the order of joints in the file; a joint written before the one that carries it
+/// comes after that. Joints are revolute, continuous, prismatic and fixed. Limits are kept as constants; `<visual>`,
+/// `<collision>` and what else the equations have no use for are left out. An edit of the file rebuilds the crate.
+///
+/// Lines on the struct say more than the file: each key of a `#[body]` with the name of a link replaces what the file
+/// says of it (`solid` all of its `<inertial>`, `inertia` the tensor and its `rpy`), and further joints and bodies
+/// are added. So a payload is a field:
+///
+/// ```ignore
+/// #[derive(Dynamics)]
+/// #[dynamics(urdf = "robots/iiwa14.urdf")]
+/// #[joint(grip: fixed, iiwa_link_ee -> payload)]
+/// #[body(payload, solid = point(m))]
+/// pub struct Iiwa14WithPayload<T> { pub m: T }
+/// ```
 ///
 /// # What is generated
 ///
@@ -179,6 +210,7 @@ use proc_macro::TokenStream;
 /// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia`, `MassMatrixSingular` |
 /// | quantities | `UnitMismatch`, `UnitsDiffer`, `DivisionByZero`, `RootOfNegative` |
 /// | options | `OutputUnknown`, `AllowUnknown` |
+/// | files | `FileUnreadable`, `PathOutside`, `FileTooLarge`, `XmlInvalid`, `RobotMissing`, `XacroLeft`, `ElementMissing`, `NumberInvalid`, `ChildUnknown`, `RootsSeveral`, `LimitsMissing`, `JointUnsupported`, `PassiveNegative`, `PassiveUnsupported`; with the file's line and column |
 /// | the compiler | `SelfCheckFailed`: the finished code is compared with a plain recursion, and differs |
 ///
 /// ```compile_fail
@@ -193,5 +225,18 @@ use proc_macro::TokenStream;
 /// ```
 #[proc_macro_derive(Dynamics, attributes(dynamics, joint, body))]
 pub fn derive_dynamics(input: TokenStream) -> TokenStream {
-    dynamics_codegen::derive(input.into()).into()
+    dynamics_codegen::derive(input.into(), read).into()
+}
+
+/// Reads a file of the crate that is being compiled: as much of it as is allowed, and one byte.
+fn read(path: &str) -> Result<Vec<u8>, String> {
+    let root = std::env::var_os("CARGO_MANIFEST_DIR").ok_or("`CARGO_MANIFEST_DIR` is not set")?;
+    let path = Path::new(&root).join(path);
+    let limit = dynamics_codegen::spec::urdf::SIZE_LIMIT as u64 + 1;
+    let mut bytes = vec![];
+    let result = File::open(&path).and_then(|file| file.take(limit).read_to_end(&mut bytes));
+    match result {
+        Ok(_) => Ok(bytes),
+        Err(error) => Err(format!("{}: {error}", path.display())),
+    }
 }

@@ -1,7 +1,7 @@
 #![recursion_limit = "4096"]
 use dynamics_core::prelude::*;
 
-/// More joints than straight-line code serves, by doubling.
+/// More joints than a stack has room for, by doubling.
 macro_rules! tree {
     ([$($done:tt)*] $name:ident) => {
         #[derive(Dynamics)]

@@ -83,7 +83,7 @@ catalogue! {
     /// No joint moves.
     DegreesOfFreedomMissing => "make a joint `revolute`, `continuous` or `prismatic`",
     /// Too many joints.
-    JointsTooMany => "split the robot; above 1000 joints straight-line code is of no use",
+    JointsTooMany => "split the robot, or weld joints that hardly move: above 256 joints its matrices fit no stack",
     /// A joint's parent is no body.
     ParentUnknown => "name a body that a joint carries, or `world`",
     /// A moving joint carries a body that is not described.
@@ -154,6 +154,35 @@ catalogue! {
     OutputUnknown => "name methods of the `Dynamics` traits",
     /// A lint that does not exist.
     AllowUnknown => "the one thing to allow is `nonphysical_inertia`",
+    // Files
+    /// The file cannot be read.
+    FileUnreadable => "give the path of a file from the root of the crate, the folder of its Cargo.toml",
+    /// The path leads out of the crate.
+    PathOutside => "copy the file into the crate, and give its path from the crate's root, as in `urdf = \"robots/arm.urdf\"`",
+    /// The file is larger or deeper than any robot needs.
+    FileTooLarge => "take out what is no link and no joint, or split the robot",
+    /// The file is no XML.
+    XmlInvalid => "correct the file; `xmllint --noout FILE` lists what is wrong",
+    /// The file is XML, and no URDF.
+    RobotMissing => "give the path of a URDF, whose root is `<robot name=\"…\">`",
+    /// Macros of xacro that were not expanded.
+    XacroLeft => "expand the macros first: `xacro FILE.xacro > FILE.urdf`",
+    /// An element or an attribute is not there.
+    ElementMissing => "add it",
+    /// A text where a number should be.
+    NumberInvalid => "write a decimal number",
+    /// A joint's child is no link.
+    ChildUnknown => "name a `<link>` of the file",
+    /// Several links that no joint carries.
+    RootsSeveral => "connect them by joints, of type `fixed` if they do not move",
+    /// A revolute or prismatic joint without limits.
+    LimitsMissing => "add `<limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/>`",
+    /// A kind of joint that is not supported yet.
+    JointUnsupported => "use revolute, continuous, prismatic and fixed joints",
+    /// Damping or friction that drives.
+    PassiveNegative => "give damping and friction as magnitudes",
+    /// Damping or friction, which are not supported yet.
+    PassiveUnsupported => "leave passive forces out by `#[dynamics(passive = off)]`",
     // The compiler
     /// The generated code does not compute what the plain recursion computes.
     SelfCheckFailed => "this is a mistake of the compiler, not yours: please report it with the robot's specification",

@@ -113,6 +113,12 @@ impl<'a> Units<'a> {
                 return terms.iter().try_for_each(|term| self.fits(slot, &term.formula));
             }
             FormulaKind::Negative(inner) => return self.fits(slot, inner),
+            // What nearly all places of a file are: nothing to solve.
+            FormulaKind::Number(_, unit)
+                if unit.is_none_or(|unit| unit.exponents == slot.quantity.exponents()) =>
+            {
+                return Ok(());
+            }
             FormulaKind::Name(name) => {
                 if let Some(field) = self.values.field(name) {
                     self.origins[field].get_or_insert_with(|| slot.name());

@@ -20,7 +20,7 @@ pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagn
             diags.error(Code::MassNegative, &formula.place, message);
         }
         check_sizes(body, values, diags);
-        check_tensor(body, values, diags);
+        check_tensor(body, spec, values, diags);
     }
     for joint in &spec.joints {
         check_limits(joint, values, diags);
@@ -48,13 +48,16 @@ fn check_sizes(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
 }
 
 /// A matrix is symmetric, and a tensor is not the first rows of a matrix.
-fn check_tensor(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
+fn check_tensor(body: &BodySpec, spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) {
     let name = &body.name;
     match body.inertia.as_ref().map(|inertia| &inertia.kind) {
         Some(InertiaKind::Tensor(parts)) => {
             let [ixx, ixy, ixz, iyy, iyz, izz] = parts.each_ref().map(|part| constant(values, part));
             let all = [ixx, ixz, iyz, izz].iter().all(Option::is_some);
-            if let (Some(ixy), Some(iyy), true) = (ixy, iyy, all)
+            // Of a file the names are in the file, and there is no other form: it can be allowed. Dummies have all alike.
+            let is_of_file = body.written.is_empty();
+            let allowed = is_of_file && (allows(spec.options.allow.as_deref()) || ixx == ixy);
+            if let (Some(ixy), Some(iyy), true) = (ixy, iyy, all && !allowed)
                 && ixy == iyy
                 && !ixy.is_zero()
             {
@@ -62,7 +65,13 @@ fn check_tensor(body: &BodySpec, values: &Values, diags: &mut Diagnostics) {
                     "ixy and iyy of `{name}` are both {} kg·m², as in a matrix read by rows",
                     plain(ixy)
                 );
-                diags.error(Code::InertiaOrder, &parts[1].place.to(&parts[3].place), message);
+                let wrong = Diagnostic::new(Code::InertiaOrder, &parts[1].place.to(&parts[3].place), message);
+                diags.push(match is_of_file {
+                    true => {
+                        wrong.help(format!("correct the components, or accept them: `{}`", allowing(body)))
+                    }
+                    false => wrong,
+                });
             }
         }
         Some(InertiaKind::Matrix(rows)) => {
@@ -89,7 +98,7 @@ fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
     let name = &joint.name;
     if let Some([lower, upper]) = &joint.limits
         && let (Some(low), Some(high)) = (constant(values, lower), constant(values, upper))
-        && !low.cmp_value(high).is_lt()
+        && !has_room(low, high, lower)
     {
         let (low, high) = (lower.short_text(), upper.short_text());
         let message = format!("the limits of `{name}` leave no room: from `{low}` to `{high}`");
@@ -107,6 +116,12 @@ fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
             );
         }
     }
+}
+
+/// Whether there is something between the limits; a file's may be equal, as exporters write what they do not know.
+fn has_room(low: Number, high: Number, lower: &Formula) -> bool {
+    let order = low.cmp_value(high);
+    order.is_lt() || (order.is_eq() && matches!(lower.place, Place::Text { .. }))
 }
 
 /// Checks what moves: each link with all that is welded to it.
@@ -254,8 +269,11 @@ fn report_nonphysical(body: &BodySpec, message: String, help: &str, diags: &mut 
     diags.push(Diagnostic::new(Code::InertiaNonphysical, place, message).help(help));
 }
 
-/// The body's line with the permission.
+/// The body's line with the permission; of a file, the line for all bodies.
 fn allowing(body: &BodySpec) -> String {
+    if body.written.is_empty() {
+        return format!("#[dynamics(allow({NONPHYSICAL_INERTIA}))]");
+    }
     let text: String = body.written.to_string().chars().filter(|c| !c.is_whitespace()).collect();
     let text = text.trim_end_matches(',').replace(',', ", ").replace('=', " = ");
     format!("#[body({text}, allow({NONPHYSICAL_INERTIA}))]")

@@ -102,7 +102,7 @@ impl<'s, 'g> Values<'s, 'g> {
             let value = self.scalar(formula)?;
             product = match divides {
                 false => product * value,
-                true if value.is_zero() => {
+                true if value.is_zero() || self.cancels(formula) => {
                     let message = format!("the divisor `{}` is zero", formula.short_text());
                     return Err(Diagnostic::new(Code::DivisionByZero, &formula.place, message));
                 }
@@ -110,6 +110,53 @@ impl<'s, 'g> Values<'s, 'g> {
             };
         }
         Ok(product)
+    }
+
+    /// Whether the terms of a formula cancel whatever the fields are, as in `(a + b) - a - b`.
+    fn cancels(&self, formula: &Formula) -> bool {
+        [0.3, 0.7, 1.1].iter().all(|&step| {
+            let (value, size) = self.trial(formula, step);
+            value.abs() <= 1e-13 * size
+        })
+    }
+
+    /// The value of a formula where no two fields are alike, and the sum of the sizes of its terms.
+    fn trial(&self, formula: &Formula, step: f64) -> (f64, f64) {
+        match &formula.kind {
+            FormulaKind::Number(value, unit) => {
+                let value = in_si(*value, *unit).to_f64();
+                (value, value.abs())
+            }
+            FormulaKind::Name(name) => {
+                let field = |k: usize| 0.5 + (0.618_034 * (k + 1) as f64 * step).fract();
+                let value = self.field(name).map_or(std::f64::consts::PI, field);
+                (value, value)
+            }
+            FormulaKind::Negative(inner) => {
+                let (value, size) = self.trial(inner, step);
+                (-value, size)
+            }
+            FormulaKind::Sum(terms) => terms.iter().fold((0.0, 0.0), |(sum, sizes), term| {
+                let (value, size) = self.trial(&term.formula, step);
+                (if term.negative { sum - value } else { sum + value }, sizes + size)
+            }),
+            FormulaKind::Product(factors) => factors.iter().fold((1.0, 1.0), |(product, sizes), factor| {
+                let (value, size) = self.trial(&factor.formula, step);
+                if factor.divides {
+                    (product / value, sizes / value.abs())
+                } else {
+                    (product * value, sizes * size)
+                }
+            }),
+            FormulaKind::Call(function, argument) => {
+                let (value, size) = self.trial(argument, step);
+                match function {
+                    Function::Sin => (value.sin(), 1.0),
+                    Function::Cos => (value.cos(), 1.0),
+                    Function::Sqrt => (value.sqrt(), size.sqrt()),
+                }
+            }
+        }
     }
 
     fn call(&self, function: Function, argument: &Formula) -> Result<Expr<'g>> {

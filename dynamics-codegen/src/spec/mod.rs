@@ -1,6 +1,6 @@
 //! What the user wrote, with its places and without judgement.
 //!
-//! The tokens of a derive are read here; a URDF will be read into the same types.
+//! The tokens of a derive are read here, and a URDF into the same types.
 
 mod body;
 mod cursor;
@@ -9,6 +9,7 @@ mod joint;
 mod options;
 mod text;
 mod unit;
+pub mod urdf;
 mod values;
 
 pub use body::{BodySpec, InertiaKind, InertiaSpec, Shape, Solid};

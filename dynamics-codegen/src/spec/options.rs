@@ -1,26 +1,31 @@
-//! `#[dynamics(gravity = […], crate = "…", snap = off, outputs(…), allow(…))]`
+//! `#[dynamics(gravity = […], urdf = "…", crate = "…", snap = off, passive = off, outputs(…), allow(…))]`
 
 use super::cursor::{Cursor, Result};
+use super::urdf::FilePath;
 use super::values::{Entry, fill};
 use super::{Formula, Name};
-use crate::diagnostics::{Code, Diagnostic, Diagnostics};
+use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 
 /// What holds for the whole robot. Several attributes add up.
 #[derive(Clone, Default)]
 pub struct Options {
     /// `gravity = [x, y, z]`: the acceleration of free fall in the world.
     pub gravity: Option<[Formula; 3]>,
+    /// `urdf = "path"`: the file that has the robot.
+    pub urdf: Option<FilePath>,
     /// `crate = "path"`: where the run-time crate is found.
     pub krate: Option<syn::Path>,
     /// `snap = on | off`: whether rotations next to right angles become right angles.
     pub snap: Option<bool>,
+    /// `passive = on | off`: whether the damping and friction of a file act.
+    pub passive: Option<bool>,
     /// `outputs(…)`: the methods to emit; without it, all.
     pub outputs: Option<Vec<Name>>,
     /// `allow(…)`
     pub allow: Option<Vec<Name>>,
 }
 
-const KEYS: &[&str] = &["gravity", "crate", "snap", "outputs", "allow"];
+const KEYS: &[&str] = &["gravity", "urdf", "crate", "snap", "passive", "outputs", "allow"];
 
 impl Options {
     /// The path of the run-time crate.
@@ -40,6 +45,8 @@ impl Options {
             match key.text.as_str() {
                 "gravity" => fill(&mut self.gravity, &key, entry.vector(["x", "y", "z"]), diags),
                 "crate" => fill(&mut self.krate, &key, crate_path(entry), diags),
+                "urdf" => fill(&mut self.urdf, &key, file_path(entry), diags),
+                "passive" => fill(&mut self.passive, &key, switch(entry), diags),
                 "snap" => fill(&mut self.snap, &key, switch(entry), diags),
                 "outputs" => fill(&mut self.outputs, &key, entry.names(), diags),
                 _ => fill(&mut self.allow, &key, entry.names(), diags),
@@ -49,15 +56,24 @@ impl Options {
 }
 
 /// `= "path"`
-fn crate_path(entry: Entry) -> Result<syn::Path> {
+fn quoted(entry: Entry, example: &str) -> Result<(syn::LitStr, Place)> {
     let mut value = entry.assigned()?;
     let place = value.here();
     let Some(literal) = value.literal() else { return Err(value.expected("a path in quotes")) };
     value.finish("the path")?;
-    let syn::Lit::Str(text) = syn::Lit::new(literal) else {
-        return Err(Diagnostic::new(Code::Syntax, &place, "expected a path in quotes")
-            .help("write `crate = \"::path::to::dynamics_core\"`"));
-    };
+    match syn::Lit::new(literal) {
+        syn::Lit::Str(text) => Ok((text, place)),
+        _ => Err(Diagnostic::new(Code::Syntax, &place, "expected a path in quotes").help(example)),
+    }
+}
+
+fn file_path(entry: Entry) -> Result<FilePath> {
+    let (text, place) = quoted(entry, "write `urdf = \"robots/arm.urdf\"`")?;
+    Ok(FilePath { text: text.value(), place })
+}
+
+fn crate_path(entry: Entry) -> Result<syn::Path> {
+    let (text, place) = quoted(entry, "write `crate = \"::path::to::dynamics_core\"`")?;
     text.parse_with(syn::Path::parse_mod_style).map_err(|_| {
         Diagnostic::new(Code::Syntax, &place, format!("`{}` is no path of a crate", text.value()))
     })

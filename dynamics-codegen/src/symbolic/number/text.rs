@@ -30,25 +30,34 @@ pub(super) fn parse_decimal(text: &str) -> Option<Number> {
     Some(if decimal.negative { -magnitude } else { magnitude })
 }
 
+/// In one pass over the bytes: files have hundreds of thousands of numbers, and macros are not optimised.
 fn scan(text: &str) -> Option<Decimal> {
-    let (mantissa, exponent) = match text.find(['e', 'E']) {
-        Some(at) => (&text[..at], scan_exponent(&text[at + 1..])?),
-        None => (text, 0),
-    };
-    let (negative, mantissa) = strip_sign(mantissa);
-    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let (mut digits, fraction) = (scan_digits(whole)?, scan_digits(fraction)?);
-    if digits.is_empty() && fraction.is_empty() {
-        return None;
+    let (negative, text) = strip_sign(text);
+    let mut digits = Vec::with_capacity(text.len());
+    let (mut any, mut point, mut exponent, mut before) = (false, false, 0_i64, b'.');
+    for (at, &byte) in text.as_bytes().iter().enumerate() {
+        match byte {
+            b'0'..=b'9' => {
+                any = true;
+                exponent -= i64::from(point);
+                if byte != b'0' || !digits.is_empty() {
+                    digits.push(byte);
+                }
+            }
+            b'_' if before != b'.' => {}
+            b'.' if !point => point = true,
+            b'e' | b'E' => {
+                exponent = exponent.saturating_add(scan_exponent(&text[at + 1..])?);
+                break;
+            }
+            _ => return None,
+        }
+        before = byte;
     }
-    let mut exponent = exponent.saturating_sub(fraction.len() as i64);
-    digits.extend(fraction);
     while digits.pop_if(|last| *last == b'0').is_some() {
         exponent = exponent.saturating_add(1);
     }
-    let leading = digits.iter().take_while(|digit| **digit == b'0').count();
-    digits.drain(..leading);
-    Some(Decimal { negative, digits, exponent })
+    any.then_some(Decimal { negative, digits, exponent })
 }
 
 /// The digits of `text` without their underscores, possibly none.
