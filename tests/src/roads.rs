@@ -71,7 +71,7 @@ impl<'g> Roads<'g> {
             Input::Parameter(k) => self.parameters[k],
             Input::Argument(..) => unreachable!("the preparation reads parameters only"),
         };
-        let fields = compiled.preparation.evaluate(read, &[]);
+        let fields = compiled.companion.preparation.evaluate(read, &[]);
         Interpreter { roads: self, compiled, fields }
     }
 

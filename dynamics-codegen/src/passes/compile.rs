@@ -18,8 +18,6 @@ pub struct Compiled<'g> {
     pub inputs: Inputs,
     /// What is computed once for all calls.
     pub companion: Companion<'g>,
-    /// How the companion's fields are computed.
-    pub preparation: Program,
     /// The entries of the table of links, for methods too large for straight lines.
     pub table: Option<Program>,
     /// The methods, in order.
@@ -33,7 +31,7 @@ impl Compiled<'_> {
             Plan::StraightLine { program, .. } => Some(program),
             Plan::FromInverse { .. } | Plan::Table { .. } => None,
         });
-        std::iter::once(&self.preparation).chain(&self.table).chain(of_methods)
+        std::iter::once(&self.companion.preparation).chain(&self.table).chain(of_methods)
     }
 }
 
@@ -57,8 +55,8 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let equations: Vec<Equation<'g>> =
         straight.map(|method| Equation { method, blocks: cheapest(&derivation, method) }).collect();
     let table = methods.iter().any(|&method| plan.form(method) == Form::Table).then(|| table::entries(model));
-    let companion = Companion::of(graph, &equations, table.as_deref().unwrap_or_default());
     let inputs = derivation.inputs;
+    let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
     let mut equations = equations.into_iter();
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
@@ -83,14 +81,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
         compiled.push(CompiledMethod { method, cost, plan });
     }
     let table = table.map(|entries| program_of(&entries));
-    Compiled {
-        graph,
-        inputs,
-        preparation: companion.program(graph, inputs),
-        table,
-        methods: compiled,
-        companion,
-    }
+    Compiled { graph, inputs, table, methods: compiled, companion }
 }
 
 /// What the loops of the run time cost, with the two methods that they call.

@@ -13,20 +13,26 @@ use crate::symbolic::{Expr, Graph, NodeId, Op};
 pub struct Companion<'g> {
     /// The value of each field.
     pub fields: Vec<Expr<'g>>,
+    /// How the fields are computed from the parameters, in their order.
+    pub preparation: Program,
     /// What each hoisted node is read as.
     reads: FxHashMap<NodeId, Operand>,
 }
 
 impl<'g> Companion<'g> {
     /// Finds what the equations and the table of links need of parameter-only work.
-    pub fn of(graph: &'g Graph, equations: &[Equation<'g>], table: &[Expr<'g>]) -> Self {
-        let mut companion = Self { fields: Vec::new(), reads: FxHashMap::default() };
+    pub fn of(graph: &'g Graph, inputs: Inputs, equations: &[Equation<'g>], table: &[Expr<'g>]) -> Self {
+        let nothing = Program { steps: Vec::new(), results: Vec::new() };
+        let mut companion = Self { fields: Vec::new(), preparation: nothing, reads: FxHashMap::default() };
         let mut normaliser = Normaliser::new(graph);
         for id in hoisted_nodes(graph, equations, table) {
             let value = normaliser.normalise(Expr::of_node(graph, id));
             let operand = companion.operand(graph, value);
             companion.reads.insert(id, operand);
         }
+        companion.preparation =
+            schedule(graph, inputs, &share(graph, &companion.fields, |_| false), |_| None);
+        companion.order_by_computation();
         companion
     }
 
@@ -35,10 +41,25 @@ impl<'g> Companion<'g> {
         self.reads.get(&node).copied()
     }
 
-    /// How the fields are computed from the parameters.
-    pub fn program(&self, graph: &'g Graph, inputs: Inputs) -> Program {
-        let shared = share(graph, &self.fields, |_| false);
-        schedule(graph, inputs, &shared, |_| None)
+    /// Puts the fields in the order in which they are computed, parameters first.
+    fn order_by_computation(&mut self) {
+        let computed_at = |field: &usize| match self.preparation.results[*field].source {
+            Source::Step(step) | Source::Sin(step) | Source::Cos(step) => step + 1,
+            Source::Constant(_) | Source::Input(_) | Source::Field(_) => 0,
+        };
+        let mut order: Vec<usize> = (0..self.fields.len()).collect();
+        order.sort_by_key(computed_at);
+        let mut place = vec![0; order.len()];
+        for (new, &old) in order.iter().enumerate() {
+            place[old] = new;
+        }
+        self.fields = order.iter().map(|&old| self.fields[old]).collect();
+        self.preparation.results = order.iter().map(|&old| self.preparation.results[old]).collect();
+        let moved = |operand: Operand| match operand.source {
+            Source::Field(field) => Operand { source: Source::Field(place[field]), ..operand },
+            _ => operand,
+        };
+        self.reads = self.reads.drain().map(|(node, operand)| (node, moved(operand))).collect();
     }
 
     /// A field for the value, or for its negative if that reads better.

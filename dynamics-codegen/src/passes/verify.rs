@@ -70,8 +70,10 @@ impl Sample {
         let mut random = Random(seed + 1);
         let mut vector = || (0..model.tree.dof()).map(|_| random.next()).collect::<Vec<f64>>();
         let (q, v, a, tau) = (vector(), vector(), vector(), vector());
-        let fields =
-            compiled.preparation.evaluate(|input| read(input, &parameters, [&[], &[], &[], &[]]), &[]);
+        let fields = compiled
+            .companion
+            .preparation
+            .evaluate(|input| read(input, &parameters, [&[], &[], &[], &[]]), &[]);
         let inertia = largest(&Oracle::new(&tree).mass_matrix(&q).concat());
         Self { tree, parameters, fields, q, v, a, tau, inertia }
     }

@@ -158,15 +158,23 @@ impl<'a> Writer<'a> {
     }
 
     fn sin_cos(&mut self, angle: Operand) {
+        let step = self.values.len();
         let inputs = self.inputs_of(angle);
         let parameters = self.context.parameters;
-        let suffix = angle_suffix(&inputs, |k| parameters[k].clone())
-            .unwrap_or_else(|| format!("_{}", self.values.len()));
-        let (sin, cos) = (self.names.fresh(&format!("s{suffix}")), self.names.fresh(&format!("c{suffix}")));
+        let suffix = angle_suffix(&inputs, |k| parameters[k].clone()).unwrap_or_else(|| format!("_{step}"));
+        let (reads_sin, reads_cos) = (self.is_read(Source::Sin(step)), self.is_read(Source::Cos(step)));
+        let sin = if reads_sin { self.names.fresh(&format!("s{suffix}")) } else { "_".to_owned() };
+        let cos = if reads_cos { self.names.fresh(&format!("c{suffix}")) } else { "_".to_owned() };
         let mut call = self.operand(angle);
         call.text = format!("sin_cos({})", call.text);
         let statement = self.declare(vec![sin.clone(), cos.clone()], call);
         self.values.push((atom(sin, vec![statement]), Some(atom(cos, vec![statement]))));
+    }
+
+    /// Whether any step or result reads the value.
+    fn is_read(&self, source: Source) -> bool {
+        let operands = self.program.steps.iter().flat_map(|step| step.operation.operands());
+        operands.chain(self.program.results.iter().copied()).any(|operand| operand.source == source)
     }
 
     /// The inputs that an operand is directly made of.
@@ -338,7 +346,7 @@ fn layout(statements: &[Statement], needed: &[usize], indent: usize) -> String {
         let leaving: Vec<&str> = (block * BLOCK..)
             .zip(chunk)
             .filter(|(k, _)| last_reader[*k] >= end)
-            .flat_map(|(_, statement)| statement.names.iter().map(String::as_str))
+            .flat_map(|(_, statement)| statement.names.iter().map(String::as_str).filter(|name| *name != "_"))
             .collect();
         let leaving = tuple(&leaving);
         let _ = writeln!(lines, "{}let {leaving} = {{", pad(indent));

@@ -46,7 +46,7 @@ impl Emitter<'_, '_> {
             text.push_str("    }\n\n");
             return text;
         }
-        let program = &self.input.compiled.preparation;
+        let program = &self.input.compiled.companion.preparation;
         let context = Context {
             companion: "",
             fields: &[],

@@ -31,8 +31,11 @@ impl Emitter<'_, '_> {
             let _ = writeln!(constants, "            {}: {},", method.method.name(), cost(method.cost));
         }
         if self.is_prepared() {
-            let _ =
-                writeln!(constants, "            prepare: {},", cost(self.input.compiled.preparation.cost()));
+            let _ = writeln!(
+                constants,
+                "            prepare: {},",
+                cost(self.input.compiled.companion.preparation.cost())
+            );
         }
         constants.push_str("            ..Costs::ZERO\n        };\n    }\n\n");
         let prepared = self.prepared();
