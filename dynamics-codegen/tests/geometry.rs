@@ -200,3 +200,26 @@ fn solids_have_the_inertia_of_the_textbook() {
     assert_eq!(moments("rod(m, 6, x)"), [0.0, 6.0, 6.0]);
     assert_eq!(moments("point(3)"), [0.0; 3]);
 }
+
+/// Rotations that are right but for the last digits of a file, and axes that are all but parallel: nothing is
+/// divided by what is nearly zero. Found on the iCub, whose frames are turned by 1.5e-11 rad.
+#[test]
+fn nearly_aligned_frames_lose_no_digits() {
+    for tilt in ["1.53e-11", "-3e-9", "2e-7", "3.7e-6", "1e-4", "0.02"] {
+        for quarter in ["0", "1.5708", "1.57079632679", "3.1416", "90deg"] {
+            let text = format!(
+                "#[joint(a: revolute(z), world -> l1, at = [0.1, 0, 0.2], rpy = [{tilt}, 1.5708, {quarter}])]
+                 #[body(l1, mass = 2, com = [0.1, 0.02, -0.03], inertia = tensor(0.2, 0.01, 0.02, 0.3, 0.03, 0.25))]
+                 #[joint(b: revolute(z), l1 -> l2, at = [0.2, 0.1, 0.3], rpy = [{quarter}, {tilt}, {tilt}])]
+                 #[body(l2, mass = 1, com = [0, 0.1, 0], inertia = tensor(0.2, 0.01, 0.02, 0.3, 0.03, 0.25))]
+                 #[joint(c: revolute([{tilt}, 1, 0]), l2 -> l3, at = [0.3, 0.1, 0.1], rpy = [0, {quarter}, {tilt}])]
+                 #[body(l3, mass = 1, com = [0, 0.1, 0.2], inertia = diag(0.1, 0.12, 0.15))]
+                 struct Tilted;"
+            );
+            // The expansion compares itself with the plain recursion, to 1e-9.
+            let result = dynamics_codegen::generate(&syn::parse_str(&text).unwrap());
+            let mistakes = result.err().map(dynamics_codegen::diagnostics::Diagnostics::into_text);
+            assert_eq!(mistakes, None, "tilt {tilt}, quarter {quarter}");
+        }
+    }
+}

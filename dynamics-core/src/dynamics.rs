@@ -104,8 +104,10 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] names the argument and the index; [`Error::SingularMassMatrix`] if the arguments are
-    /// finite and the result is not.
+    /// [`Error::NotFinite`] names the argument and the index; under the name `a` it is a result that is not finite
+    /// because the bias forces already are not: speeds that overflow, angles beyond the range of the sine, a
+    /// parameter that is NaN. [`Error::SingularMassMatrix`] if arguments and bias forces are finite and the result
+    /// is not.
     fn try_forward_dynamics(
         &self,
         q: &SVector<T, NQ>,
@@ -116,7 +118,11 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         Error::unless_finite("v", v)?;
         Error::unless_finite("tau", tau)?;
         let a = self.forward_dynamics(q, v, tau);
-        if a.iter().all(|a| a.is_finite()) { Ok(a) } else { Err(Error::SingularMassMatrix) }
+        let not_finite = Error::unless_finite("a", &a);
+        if not_finite.is_err() && Error::unless_finite("h", &self.bias_forces(q, v)).is_ok() {
+            return Err(Error::SingularMassMatrix);
+        }
+        not_finite.map(|()| a)
     }
 }
 

@@ -174,6 +174,7 @@ use proc_macro::TokenStream;
 ///
 /// `prepare()` does all work that depends on parameters alone and returns the companion, `RobotPrepared`. The methods of
 /// the robot itself prepare in each call, so in a loop use the companion. A robot without parameters is its own.
+/// `check()` says whether every field that the equations read is finite, and every mass positive.
 ///
 /// ```
 /// # use dynamics_core::prelude::*;

@@ -404,3 +404,31 @@ fn what_is_not_finite_comes_out_as_such_and_never_panics() {
         }
     }
 }
+
+/// The sine's range is the coordinate's: an axis that stands oblique to its neighbours adds nothing to the angle
+/// before it is reduced. Rodrigues' formula for one turn after the other, at a hundred thousand radians.
+#[test]
+fn oblique_axes_keep_the_accuracy_of_the_sine() {
+    use dynamics_core::prelude::*;
+
+    #[derive(Dynamics)]
+    #[joint(j: revolute([1, 2, 3]), world -> b)]
+    #[body(b, com = [0.3, 0.1, 0.1], solid = cuboid(1kg, [0.2, 0.1, 0.1]))]
+    #[joint(k: revolute([3, -1, 2]), b -> c, at = [0.5, 0, 0])]
+    #[body(c, com = [0.3, 0.1, 0.1], solid = cuboid(1kg, [0.2, 0.1, 0.1]))]
+    struct Oblique;
+
+    /// Some ten roundings of entries no larger than one.
+    const TOLERANCE: f64 = 1e-15;
+    let turn = |axis: [f64; 3], angle: f64| {
+        let k = nalgebra::Vector3::from(axis).normalize();
+        let hat = k.cross_matrix();
+        nalgebra::Matrix3::identity() + hat * angle.sin() + hat * hat * (1.0 - angle.cos())
+    };
+    for q in [[0.4, -1.0], [99_999.1, 77_777.7], [-1e6, 1e9]] {
+        let expected = turn([1.0, 2.0, 3.0], q[0]) * turn([3.0, -1.0, 2.0], q[1]);
+        let pose = Oblique.pose::<oblique_frames::C>(&SVector::from(q));
+        let miss = (pose.rotation - expected).amax();
+        assert!(miss < TOLERANCE, "{q:?}: {miss:e}");
+    }
+}

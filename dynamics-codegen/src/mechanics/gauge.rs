@@ -2,12 +2,12 @@
 //!
 //! A link's frame may be turned about and shifted along its joint's axis without any change of meaning. So x
 //! is laid along the common normal to the next axis (the first child's, at a branch) and the origin at its
-//! foot; offsets along parallel axes are merged; the last link takes up its parent's x. The base frame is the
+//! foot; offsets along axes that are parallel, or so nearly that the foot would be far away, are merged; the last link takes up its parent's x. The base frame is the
 //! first joint's. Where a rotation depends on parameters the given frame stays.
 //!
 //! W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002, ch. 3.
 
-use super::normal::{NormalFrame, NormalLink, NormalTree, Offset};
+use super::normal::{NormalFrame, NormalLink, NormalTree};
 use super::rotation::{PlanarTurn, Turn};
 use crate::model::Tree;
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Vector3};
@@ -70,7 +70,7 @@ impl<'g> Change<'g> {
         let axis = tidy_vector(child.placement.rotation.column(2));
         let Some([x, y, z]) = constants(axis) else { return Self::NONE };
         let origin = child.placement.translation;
-        if x.is_zero() && y.is_zero() {
+        if (x * x + y * y).cmp_value(nearly_parallel()).is_lt() {
             return Self::to_parallel_axis(origin, Self::free(joint));
         }
         Self::to_common_normal(origin, [x, y, z])
@@ -85,7 +85,7 @@ impl<'g> Change<'g> {
         Self { turn, shift: -joint.rotation.column(2).dot(joint.translation) }
     }
 
-    /// x towards the next, parallel axis.
+    /// x towards the next axis, which is parallel or nearly so.
     fn to_parallel_axis(origin: Vector3<Expr<'g>>, free: Self) -> Self {
         let [x, y, _] = origin.0;
         let turn = match (x.is_zero(), y.is_zero()) {
@@ -128,7 +128,7 @@ fn normal_link<'g>(
         parent: link.parent,
         motion: link.motion,
         turn,
-        offset: offset(tidy_turn(beta.then(change.turn))),
+        offset: tidy_turn(beta.then(change.turn)),
         position: tidy_vector(joint.translation + joint.rotation.column(2).scale(change.shift)),
         inertia: tidy_inertia(inertia),
     }
@@ -147,6 +147,9 @@ fn base_frame<'g>(tree: &Tree<Expr<'g>>) -> (Pose<Expr<'g>>, Pose<Expr<'g>>) {
 }
 
 /// `R = Rz(γ)·Rx(α)·Rz(β)` of a constant rotation, with `γ = 0` where that is possible.
+///
+/// `γ` and `α` are read off the last column. `β` stands in the first row of `Rz(γ)ᵀR`, whatever `α` is: the last
+/// row would divide by its sine, and a rotation that was snapped is orthogonal to some eleven digits only.
 fn decompose<'g>(rotation: Matrix3<Expr<'g>>) -> Option<(Turn<Expr<'g>>, PlanarTurn<Expr<'g>>)> {
     let mut entries = [[Number::ZERO; 3]; 3];
     for (row, exprs) in entries.iter_mut().zip(rotation.0) {
@@ -154,28 +157,21 @@ fn decompose<'g>(rotation: Matrix3<Expr<'g>>) -> Option<(Turn<Expr<'g>>, PlanarT
             *entry = expr.as_number()?;
         }
     }
-    let [[r00, r01, r02], [_, _, r12], [r20, r21, r22]] = entries;
-    let turn =
-        |cos: Number, sin: Number| PlanarTurn { cos: tidy_number(cos).into(), sin: tidy_number(sin).into() };
-    let (gamma, alpha, beta) = if r02.is_zero() && r12.is_zero() {
-        (PlanarTurn::identity(), turn(r22, Number::ZERO), turn(r00, -r01))
-    } else if r02.is_zero() {
-        let quotient = |x: Number| x.checked_div(-r12).expect("r12 is not zero in this branch");
-        (PlanarTurn::identity(), turn(r22, -r12), turn(quotient(r21), quotient(r20)))
+    let [[r00, r01, r02], [r10, r11, r12], [_, _, r22]] = entries;
+    let (gamma, sin_alpha) = if r02.is_zero() {
+        ((Number::ONE, Number::ZERO), -r12)
     } else {
         let sin = (r02 * r02 + r12 * r12).sqrt().expect("a sum of squares");
         let quotient = |x: Number| x.checked_div(sin).expect("r02 is not zero in this branch");
-        (turn(quotient(-r12), quotient(r02)), turn(r22, sin), turn(quotient(r21), quotient(r20)))
+        ((quotient(-r12), quotient(r02)), sin)
     };
-    Some((Turn::Planar { gamma, alpha }, beta))
+    let (cos, sin) = gamma;
+    let beta = direction(cos * r00 + sin * r10, -(cos * r01 + sin * r11));
+    Some((Turn::Planar { gamma: turn(cos, sin), alpha: direction(r22, sin_alpha) }, beta))
 }
 
-fn offset(turn: PlanarTurn<Expr<'_>>) -> Offset<Expr<'_>> {
-    match (turn.quarters(), turn.cos.as_number(), turn.sin.as_number()) {
-        (Some(quarters), _, _) => Offset::Quarters(quarters),
-        (None, Some(cos), Some(sin)) => Offset::Angle { angle: Number::atan2(sin, cos).into(), turn },
-        _ => unreachable!("turns about z are made of constants"),
-    }
+fn turn<'g>(cos: Number, sin: Number) -> PlanarTurn<Expr<'g>> {
+    PlanarTurn { cos: tidy_number(cos).into(), sin: tidy_number(sin).into() }
 }
 
 /// The unit vector along `(x, y)`, as a turn.
@@ -188,7 +184,13 @@ fn direction<'g>(x: Number, y: Number) -> PlanarTurn<Expr<'g>> {
         (x * x + y * y).sqrt().expect("a sum of squares")
     };
     let quotient = |x: Number| x.checked_div(length).expect("a direction is not the zero vector");
-    PlanarTurn { cos: tidy_number(quotient(x)).into(), sin: tidy_number(quotient(y)).into() }
+    turn(quotient(x), quotient(y))
+}
+
+/// The square of the sine below which axes count as parallel. The foot of their common normal is further away
+/// than the links are long by the inverse of the sine, and forces computed there lose as many digits.
+fn nearly_parallel() -> Number {
+    Number::ratio(1, 100)
 }
 
 fn constants(v: Vector3<Expr<'_>>) -> Option<[Number; 3]> {

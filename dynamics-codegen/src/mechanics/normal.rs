@@ -19,44 +19,13 @@ pub struct NormalLink<S> {
     pub motion: Motion,
     /// The constant turn `R_PJ` from the parent's frame to the joint's.
     pub turn: Turn<S>,
-    /// The constant turn about z that adds to the joint's own.
-    pub offset: Offset<S>,
+    /// The constant turn about z that adds to the joint's own. It is applied to the joint's sine and cosine, not
+    /// added to its coordinate: a sum of angles is rounded like its larger part, and would spoil their reduction.
+    pub offset: PlanarTurn<S>,
     /// The origin of the joint's frame in the parent's frame, at `q = 0`.
     pub position: Vector3<S>,
     /// The mass that the recursions see, in the link's frame.
     pub inertia: PseudoInertia<S>,
-}
-
-/// A constant turn about z.
-#[derive(Clone, Copy, Debug)]
-pub enum Offset<S> {
-    /// A multiple of 90°, from 0 to 3: it costs nothing.
-    Quarters(u8),
-    /// Any other angle.
-    Angle {
-        /// The angle, rad.
-        angle: S,
-        /// Its cosine and sine.
-        turn: PlanarTurn<S>,
-    },
-}
-
-impl<S: Scalar> Offset<S> {
-    /// The cosine and sine of the offset alone.
-    pub fn turn(self) -> PlanarTurn<S> {
-        match self {
-            Offset::Quarters(quarters) => PlanarTurn::identity().plus_quarters(quarters),
-            Offset::Angle { turn, .. } => turn,
-        }
-    }
-
-    /// The cosine and sine of `q + offset`.
-    fn of_joint(self, q: S) -> PlanarTurn<S> {
-        match self {
-            Offset::Quarters(quarters) => PlanarTurn::of_angle(q).plus_quarters(quarters),
-            Offset::Angle { angle, .. } => PlanarTurn::of_angle(q + angle),
-        }
-    }
 }
 
 /// A frame at rest on a link (on the base, without a link).
@@ -121,8 +90,8 @@ impl<S: Scalar> PlacedJoint<S> {
     fn new(link: &NormalLink<S>, q: S) -> Self {
         let axis = link.turn.up(Vector3::unit_z());
         let (about_z, position) = match link.motion {
-            Motion::Revolute => (link.offset.of_joint(q), link.position),
-            Motion::Prismatic => (link.offset.turn(), link.position + axis.scale(q)),
+            Motion::Revolute => (PlanarTurn::of_angle(q).then(link.offset), link.position),
+            Motion::Prismatic => (link.offset, link.position + axis.scale(q)),
         };
         Self { constant: link.turn, about_z, position, axis, motion: link.motion }
     }

@@ -48,7 +48,7 @@ fn take_axial_mass<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInert
 fn take_second_moment<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInertia<S> {
     let link = &mut tree.links[k];
     let second = std::mem::replace(&mut link.inertia.second, Symmetric3::zero());
-    let about_z = link.offset.turn();
+    let about_z = link.offset;
     let rotation = link.turn.matrix() * Matrix3::rotation_z(about_z.cos, about_z.sin);
     PseudoInertia { second: second.rotated(rotation), ..PseudoInertia::zero() }
 }

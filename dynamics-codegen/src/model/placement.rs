@@ -119,30 +119,45 @@ fn written_pose<'g>(joint: &JointSpec, values: &Values<'_, 'g>, snap: Snap) -> R
 pub(super) fn rotation_of_rpy<'g>(rpy: Vector3<Expr<'g>>, snap: Snap) -> Matrix<'g> {
     let [roll, pitch, yaw] = rpy.0;
     let product = turn_about(2, yaw, snap) * turn_about(1, pitch, snap) * turn_about(0, roll, snap);
-    product.map(|entry| snapped(entry, snap))
+    snapped(product, snap)
 }
 
 fn turn_about<'g>(axis: usize, angle: Expr<'g>, snap: Snap) -> Matrix<'g> {
-    let (c, s) = (snapped(angle.cos(), snap), snapped(angle.sin(), snap));
-    match axis {
+    let (c, s) = (angle.cos(), angle.sin());
+    let turn = match axis {
         0 => Matrix3::rotation_x(c, s),
         1 => Matrix3::rotation_y(c, s),
         _ => Matrix3::rotation_z(c, s),
-    }
+    };
+    snapped(turn, snap)
 }
 
 fn snapped_pose<'g>(pose: Pose<Expr<'g>>, snap: Snap) -> Pose<Expr<'g>> {
-    Pose { rotation: pose.rotation.map(|entry| snapped(entry, snap)), ..pose }
+    Pose { rotation: snapped(pose.rotation, snap), ..pose }
 }
 
-/// A constant within 1e-11 of 0, 1 or −1 as that.
-fn snapped(entry: Expr<'_>, snap: Snap) -> Expr<'_> {
-    let Some(value) = entry.as_number().filter(|_| snap == Snap::On) else { return entry };
-    let near = |whole: i64| (value - Number::integer(whole)).to_f64().abs() <= 1e-11;
-    [0, 1, -1]
-        .into_iter()
-        .find(|whole| near(*whole))
-        .map_or(entry, |whole| Expr::Constant(Number::integer(whole)))
+/// A rotation whose constant entries within 1e-11 of 0 are 0; and those within it of ±1 are ±1, where all else in
+/// their row and column is 0. So 1.57079632679 is a right angle, and 1.5708, whose sine is as close to 1, is not.
+fn snapped<'g>(rotation: Matrix<'g>, snap: Snap) -> Matrix<'g> {
+    if snap == Snap::Off {
+        return rotation;
+    }
+    let near = |entry: Expr<'g>, whole: i64| {
+        entry.as_number().is_some_and(|value| (value - Number::integer(whole)).to_f64().abs() <= 1e-11)
+    };
+    let zeros = rotation.map(|entry| if near(entry, 0) { Expr::ZERO } else { entry });
+    let is_alone = |row: usize, column: usize| {
+        (0..3)
+            .all(|k| (k == column || zeros.0[row][k].is_zero()) && (k == row || zeros.0[k][column].is_zero()))
+    };
+    let mut result = zeros;
+    for (i, row) in result.0.iter_mut().enumerate() {
+        for (j, entry) in row.iter_mut().enumerate() {
+            let whole = [1, -1].into_iter().find(|&whole| near(*entry, whole) && is_alone(i, j));
+            *entry = whole.map_or(*entry, |whole| Expr::Constant(Number::integer(whole)));
+        }
+    }
+    result
 }
 
 /// A rotation whose third column is the direction of the axis.
