@@ -253,10 +253,15 @@ impl<'a> Writer<'a> {
         if !operand.negative {
             return value;
         }
-        // `-a * b` is `-(a * b)`.
+        // `-a * b` is `-(a * b)`, and the negative of `-a * b` is `a * b`.
         let value = wrap(value, Binding::Product);
-        let binding = value.binding.min(Binding::Negation);
-        Text { text: format!("-{}", value.text), binding, ..value }
+        match value.text.strip_prefix('-') {
+            Some(positive) => Text { text: positive.to_owned(), binding: Binding::Product, ..value },
+            None => {
+                let binding = value.binding.min(Binding::Negation);
+                Text { text: format!("-{}", value.text), binding, ..value }
+            }
+        }
     }
 
     fn input(&mut self, input: Input) -> String {

@@ -1,0 +1,55 @@
+//! `dynamics count FILE`: what each method costs.
+
+use dynamics_codegen::mechanics::equations::Method;
+use dynamics_codegen::passes::{CompiledMethod, Plan};
+use dynamics_codegen::symbolic::Graph;
+
+use crate::failure::Failure;
+use crate::input::InputArgs;
+use crate::output::{print, table};
+use crate::robot::{Robot, Wanted};
+
+/// Count the operations of each method
+#[derive(clap::Args)]
+#[command(after_help = "Example:\n  dynamics count arm.urdf")]
+pub(crate) struct Args {
+    #[command(flatten)]
+    input: InputArgs,
+}
+
+/// Runs the command.
+pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    let input = args.input.read()?;
+    let graph = Graph::new();
+    let robot = Robot::of(&input, &graph, Wanted::All)?;
+    let head = ["method", "mul", "add", "div", "sqrt", "sin+cos", "form"].map(str::to_owned).to_vec();
+    let (of_robot, of_frames): (Vec<_>, Vec<_>) =
+        robot.compiled.methods.iter().partition(|compiled| Method::OF_ROBOT.contains(&compiled.method));
+    let row = |compiled: &&CompiledMethod<'_>| row(&robot, compiled);
+    let rows: Vec<_> = std::iter::once(head)
+        .chain(of_robot.iter().map(row))
+        .chain(std::iter::once(vec![]))
+        .chain(of_frames.iter().map(row))
+        .collect();
+    print(&table("lrrrrrl", &rows))
+}
+
+fn row(robot: &Robot<'_>, compiled: &CompiledMethod<'_>) -> Vec<String> {
+    let frame = match compiled.method {
+        Method::Pose(k) | Method::Jacobian(k) | Method::WorldJacobian(k) => robot.read.tree.frames.get(k),
+        _ => None,
+    };
+    let frame = frame.map_or(String::new(), |frame| format!("::<{}>", frame.name));
+    let cost = compiled.cost;
+    let form = match compiled.plan {
+        Plan::StraightLine { .. } => "straight line",
+        Plan::FromInverse { .. } => "loops",
+        Plan::Table { .. } => "recursion; about",
+    };
+    let counts =
+        [cost.multiplications, cost.additions, cost.divisions, cost.square_roots, cost.sines_and_cosines];
+    let mut row = vec![format!("{}{frame}", compiled.method.name())];
+    row.extend(counts.map(|count| count.to_string()));
+    row.push(form.to_owned());
+    row
+}

@@ -1,0 +1,57 @@
+//! The binary `dynamics`: the compiler of robots from the command line.
+//!
+//! What it prints goes to standard output, and is the same for the same input; mistakes go to standard error. It exits
+//! with 1 if the input is wrong, and with 2 if the command line is.
+
+mod check;
+mod count;
+mod eval;
+mod explain;
+mod failure;
+mod generate;
+mod input;
+mod output;
+mod progress;
+mod render;
+mod robot;
+mod simulate;
+mod state;
+mod tree;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+/// Reads robots from URDF files, and turns them into their equations of motion.
+#[derive(Parser)]
+#[command(name = "dynamics", version, after_help = EXAMPLES, arg_required_else_help = true)]
+enum Command {
+    Check(check::Args),
+    Generate(generate::Args),
+    Count(count::Args),
+    Eval(eval::Args),
+    Simulate(simulate::Args),
+    Explain(explain::Args),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  dynamics check arm.urdf
+  dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs
+  dynamics eval arm.urdf --state '{\"q\": [0.1, 0.2], \"v\": [1, 0]}'
+  dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
+  dynamics explain MassNegative
+
+FILE may be `-`, for standard input.";
+
+fn main() -> ExitCode {
+    let done = match Command::parse() {
+        Command::Check(args) => check::run(&args),
+        Command::Generate(args) => generate::run(&args),
+        Command::Count(args) => count::run(&args),
+        Command::Eval(args) => eval::run(&args),
+        Command::Simulate(args) => simulate::run(&args),
+        Command::Explain(args) => explain::run(&args),
+    };
+    done.map_or_else(failure::Failure::report, |()| ExitCode::SUCCESS)
+}

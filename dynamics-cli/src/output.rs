@@ -1,0 +1,54 @@
+//! What is written: to standard output, or to a file.
+
+use std::fs::File;
+use std::io::{self, BufWriter, ErrorKind, Write};
+use std::path::Path;
+
+use crate::failure::{Failure, Problem};
+use crate::input::name_of;
+
+/// Writes a text to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut stdout = io::stdout().lock();
+    stdout.write_all(text.as_bytes()).and_then(|()| stdout.flush()).map_err(|error| failed(None, &error))
+}
+
+/// A file, or standard output without one. A file that is read is not written.
+pub(crate) fn writer(path: Option<&Path>, input: &Path) -> Result<Box<dyn Write>, Failure> {
+    let Some(path) = path.filter(|path| *path != Path::new("-")) else {
+        return Ok(Box::new(BufWriter::new(io::stdout().lock())));
+    };
+    let is_input = |path: &Path| path.canonicalize().ok().zip(input.canonicalize().ok());
+    if is_input(path).is_some_and(|(output, input)| output == input) {
+        let problem = Problem::new(format!("{} would be written over: it is the input", name_of(path)));
+        return Err(problem.help("give another file to `-o`").into());
+    }
+    let file = File::create(path).map_err(|error| failed(Some(path), &error))?;
+    Ok(Box::new(BufWriter::new(file)))
+}
+
+/// What it means that something could not be written.
+pub(crate) fn failed(path: Option<&Path>, error: &io::Error) -> Failure {
+    let is_stdout = path.is_none_or(|path| path == Path::new("-"));
+    if is_stdout && error.kind() == ErrorKind::BrokenPipe {
+        return Failure::PipeClosed;
+    }
+    let name = path.filter(|_| !is_stdout).map_or("standard output".to_owned(), name_of);
+    Problem::new(format!("{name} cannot be written: {error}")).into()
+}
+
+/// Columns of equal width, two spaces apart, each to the left (`l`) or to the right (`r`).
+pub(crate) fn table(columns: &str, rows: &[Vec<String>]) -> String {
+    let width = |k: usize| rows.iter().filter_map(|row| row.get(k)).map(|cell| cell.chars().count()).max();
+    let mut text = String::new();
+    for row in rows {
+        let mut line = String::new();
+        for (k, (cell, side)) in row.iter().zip(columns.chars()).enumerate() {
+            let width = width(k).unwrap_or_default();
+            line += &if side == 'l' { format!("  {cell:<width$}") } else { format!("  {cell:>width$}") };
+        }
+        text += line.trim_end();
+        text += "\n";
+    }
+    text
+}

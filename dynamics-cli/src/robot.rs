@@ -1,0 +1,194 @@
+//! A robot that can be asked for numbers: its programs, run by the interpreter.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use dynamics_codegen::diagnostics::Diagnostics;
+use dynamics_codegen::mechanics::equations::{Argument, Input as Symbol, Method};
+use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows};
+use dynamics_codegen::mechanics::singular::idle_motion;
+use dynamics_codegen::model::{self, Model, Tree};
+use dynamics_codegen::passes::{self, Compiled, Plan};
+use dynamics_codegen::spec::RobotSpec;
+use dynamics_codegen::spec::urdf::Report;
+use dynamics_codegen::symbolic::{Evaluator, Graph};
+use dynamics_codegen::{generate_urdf, read_urdf};
+
+use crate::failure::{Failure, Problem};
+use crate::input::Input;
+use crate::progress::Progress;
+
+/// The name of the struct where nobody will see it.
+pub(crate) const NAME: &str = "Robot";
+
+/// A robot as it was read and judged.
+pub(crate) struct Read<'g> {
+    /// As written.
+    pub(crate) spec: RobotSpec,
+    /// What became of the file.
+    pub(crate) report: Report,
+    /// As judged.
+    pub(crate) model: Model<'g>,
+    /// In doubles, for the plain recursions.
+    pub(crate) tree: Tree<f64>,
+}
+
+/// A robot with its programs.
+pub(crate) struct Robot<'g> {
+    /// As it was read and judged.
+    pub(crate) read: Read<'g>,
+    /// The programs.
+    pub(crate) compiled: Compiled<'g>,
+}
+
+/// What is compiled of a robot.
+#[derive(Clone, Copy)]
+pub(crate) enum Wanted<'a> {
+    /// These methods.
+    Only(&'a [Method]),
+    /// All methods, those of its frames too.
+    All,
+}
+
+/// Where a robot is, how it moves, and what acts on it.
+#[derive(Clone, Debug)]
+pub(crate) struct State {
+    /// Coordinates.
+    pub(crate) q: Vec<f64>,
+    /// Speeds.
+    pub(crate) v: Vec<f64>,
+    /// Accelerations.
+    pub(crate) a: Vec<f64>,
+    /// Joint forces.
+    pub(crate) tau: Vec<f64>,
+}
+
+impl<'g> Read<'g> {
+    /// Reads and judges a file.
+    fn of(input: &Input, graph: &'g Graph) -> Result<Self, Failure> {
+        let wrong = |found| Failure::mistakes(found, input);
+        let (spec, report) = read_urdf(NAME, input.urdf(), &input.options).map_err(wrong)?;
+        let mut diags = Diagnostics::new();
+        let model = model::build(&spec, graph, &mut diags);
+        diags.check().map_err(wrong)?;
+        let Some(model) = model else {
+            return Err(Problem::new(format!("{} cannot be understood", input.name)).into());
+        };
+        // A file has no parameters.
+        let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
+        let tree = model.tree.map(|expr| evaluator.value(expr));
+        Ok(Self { spec, report, model, tree })
+    }
+}
+
+impl<'g> Robot<'g> {
+    /// Reads, judges and compiles a file.
+    pub(crate) fn of(input: &Input, graph: &'g Graph, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        let _progress = Progress::of(&format!("compiling {}", input.name));
+        let read = Read::of(input, graph)?;
+        let model = &read.model;
+        let names: Option<Vec<&str>> = match wanted {
+            Wanted::Only(methods) => Some(methods.iter().map(|method| method.name()).collect()),
+            Wanted::All => None,
+        };
+        let compiled = passes::compile(model, graph, &passes::methods(names.as_deref(), model));
+        let is_sound = idle_motion(model, graph).is_none()
+            && compiled.programs().all(|program| program.constant_out_of_range().is_none())
+            && passes::disagreements(model, &compiled).is_empty();
+        // The compiler finds the same once more, and has the words for it.
+        if !is_sound {
+            generate_urdf(NAME, input.urdf(), &input.options)
+                .map_err(|found| Failure::mistakes(found, input))?;
+        }
+        Ok(Self { read, compiled })
+    }
+
+    /// Degrees of freedom.
+    pub(crate) fn dof(&self) -> usize {
+        self.read.tree.dof()
+    }
+
+    /// What a method returns, all entries in order, by rows; finite numbers.
+    pub(crate) fn evaluate(&self, method: Method, state: &State) -> Result<Vec<f64>, Failure> {
+        let name = method.name();
+        let values = self.compute(method, state).ok_or_else(|| {
+            let problem = Problem::new(format!("`{name}` has no value: M(q) is not positive definite"));
+            problem.help("correct the inertias, or choose another `q`")
+        })?;
+        if values.iter().any(|value| !value.is_finite()) {
+            let problem = Problem::new(format!("`{name}` is not finite at this state"));
+            return Err(problem.help("choose smaller numbers for the state").into());
+        }
+        // No negative zeros.
+        Ok(values.into_iter().map(|value| value + 0.0).collect())
+    }
+
+    fn compute(&self, method: Method, state: &State) -> Option<Vec<f64>> {
+        match self.plan(method)? {
+            Plan::StraightLine { program, .. } => Some(program.evaluate(|symbol| state.read(symbol), &[])),
+            Plan::FromInverse { .. } => self.derivatives_from_inverse(state),
+            Plan::Table { .. } => self.plain(method, state),
+        }
+    }
+
+    fn plan(&self, method: Method) -> Option<&Plan<'g>> {
+        self.compiled.methods.iter().find(|compiled| compiled.method == method).map(|found| &found.plan)
+    }
+
+    /// `∂a/∂q = −M⁻¹ ∂τ/∂q`, `∂a/∂v = −M⁻¹ ∂τ/∂v`, `∂a/∂τ = M⁻¹`, at the acceleration that `τ` gives.
+    fn derivatives_from_inverse(&self, state: &State) -> Option<Vec<f64>> {
+        let n = self.dof();
+        let a = self.compute(Method::ForwardDynamics, state)?;
+        let inverse = self.compute(Method::InverseDynamicsDerivatives, &State { a, ..state.clone() })?;
+        let [by_q, by_v, M] = [0, 1, 2].map(|block| rows(&inverse[block * n * n..][..n * n], n));
+        let unit: Rows = (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect();
+        let factor = Cholesky::of(&M)?;
+        let negative =
+            |rows: Rows| rows.into_iter().map(|row| row.into_iter().map(|x| -x).collect()).collect();
+        let [by_q, by_v]: [Rows; 2] = [by_q, by_v].map(negative);
+        Some([by_q, by_v, unit].iter().flat_map(|B| factor.solve_columns(B).concat()).collect())
+    }
+
+    /// What is too long for a straight line, by the plain recursion.
+    fn plain(&self, method: Method, state: &State) -> Option<Vec<f64>> {
+        let (oracle, State { q, v, a, tau }) = (Oracle::new(&self.read.tree), state);
+        Some(match method {
+            Method::MassMatrix => oracle.mass_matrix(q).concat(),
+            Method::CoriolisMatrix => oracle.coriolis_matrix(q, v).concat(),
+            Method::GravityForces => oracle.gravity_forces(q),
+            Method::BiasForces => oracle.bias_forces(q, v),
+            Method::InverseDynamics => oracle.inverse_dynamics(q, v, a),
+            Method::ForwardDynamics => oracle.forward_dynamics(q, v, tau)?,
+            Method::KineticEnergy => vec![oracle.kinetic_energy(q, v)],
+            Method::PotentialEnergy => vec![oracle.potential_energy(q)],
+            Method::Lagrangian => vec![oracle.lagrangian(q, v)],
+            Method::InverseDynamicsDerivatives => {
+                let found = oracle.inverse_dynamics_derivatives(q, v, a);
+                [found.dtau_dq, found.dtau_dv, found.dtau_da].concat().concat()
+            }
+            Method::ForwardDynamicsDerivatives => {
+                let found = oracle.forward_dynamics_derivatives(q, v, tau)?;
+                [found.da_dq, found.da_dv, found.da_dtau].concat().concat()
+            }
+            Method::EquationsOfMotion | Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_) => {
+                return None;
+            }
+        })
+    }
+}
+
+impl State {
+    fn read(&self, symbol: Symbol) -> f64 {
+        match symbol {
+            // A file has no parameters.
+            Symbol::Parameter(_) => f64::NAN,
+            Symbol::Argument(Argument::Q, k) => self.q[k],
+            Symbol::Argument(Argument::V, k) => self.v[k],
+            Symbol::Argument(Argument::A, k) => self.a[k],
+            Symbol::Argument(Argument::Tau, k) => self.tau[k],
+        }
+    }
+}
+
+/// A matrix of `n` columns.
+pub(crate) fn rows(entries: &[f64], n: usize) -> Rows {
+    entries.chunks(n.max(1)).map(<[f64]>::to_vec).collect()
+}

@@ -1,0 +1,133 @@
+//! What is wrong is shown where it is, and a wrong command line is told from a wrong robot.
+
+use super::{dynamics, dynamics_on, folder, model, robots};
+
+/// The cart-pole with one thing replaced.
+fn cart_with(old: &str, new: &str) -> String {
+    let text = std::fs::read_to_string(robots().join(model("cartpole"))).unwrap();
+    assert!(text.contains(old), "{old}");
+    text.replacen(old, new, 1)
+}
+
+#[test]
+fn a_broken_file() {
+    let text = cart_with("0.0 0.0 0.5", "0.0 0,5 0.5");
+    let text = text.replacen("type=\"fixed\"", "type=\"fixd\"", 1);
+    let text = text.replacen("lower=\"-2.0\" upper=\"2.0\"", "lower=\"2.0\" upper=\"-2.0\"", 1);
+    insta::assert_snapshot!(dynamics_on(text.as_bytes(), &["check", "-"]).failed(1));
+}
+
+#[test]
+fn a_robot_that_needs_permission() {
+    insta::assert_snapshot!(dynamics(&["check", &model("puma560")]).failed(1));
+}
+
+/// Every command that reads a robot refuses what is none, each in its own words.
+#[test]
+fn every_command_refuses_what_is_no_robot() {
+    let commands: [&[&str]; 5] = [
+        &["check"],
+        &["count"],
+        &["eval"],
+        &["generate", "--lang", "rust"],
+        &["simulate", "--time", "1", "--step", "0.1"],
+    ];
+    let files: [(&[u8], &str); 7] = [
+        (b"", "the file is empty"),
+        (b"<robot", "--> <stdin>:1:"),
+        (b"<robot name='\xff'/>", "the file is not in UTF-8"),
+        (b"\xef\xbb\xbf<sdf/>", "its root is `<sdf>`"),
+        (b"<robot/>", "the robot has no link"),
+        (b"<!DOCTYPE a><robot/>", "document type"),
+        ("<a>".repeat(100_000).leak().as_bytes(), "nested more than 64 deep"),
+    ];
+    for (file, expected) in files {
+        for command in commands {
+            let complaint = dynamics_on(file, &[command, &["-"]].concat()).failed(1);
+            assert!(complaint.contains(expected), "{command:?}: {complaint}");
+        }
+    }
+    for path in ["no/such.urdf", "."] {
+        assert!(dynamics(&["check", path]).failed(1).contains("cannot be read"));
+    }
+}
+
+#[test]
+fn a_wrong_state_names_the_joints() {
+    for (state, expected) in [
+        (r#"{"q": [1]}"#, "`q` has 1 number, and the robot has 2 joints"),
+        (r#"{"v": [1, 2, 3]}"#, "2 finite numbers, of the joints slider, hinge"),
+        (r#"{"q": [1, null]}"#, "`q` is no list of numbers"),
+        (r#"{"q": [1, NaN]}"#, "--> --state:1:11"),
+        (r#"{"q": [1, 1e999]}"#, "number out of range"),
+        (r#"{"q": [1, 2], "q": [1, 2]}"#, "`q` twice"),
+        (r#"{"tua": [1, 2]}"#, "did you mean `tau`?"),
+        (r#"{"speed": [1, 2]}"#, "the joints slider, hinge"),
+        ("[1, 2]", "an object of vectors"),
+        (r#"{"q": [1e200, 1e200], "v": [1e200, 1e200]}"#, "is not finite at this state"),
+        ("@no/such.json", "no/such.json cannot be read"),
+    ] {
+        let complaint = dynamics(&["eval", &model("cartpole"), "--state", state]).failed(1);
+        assert!(complaint.contains(expected), "{state}: {complaint}");
+    }
+}
+
+#[test]
+fn a_wrong_simulation_does_not_start() {
+    let cart = model("cartpole");
+    let simulate = ["simulate", cart.as_str()];
+    for (step, time) in [("0", "1"), ("-1e-3", "1"), ("NaN", "1"), ("inf", "1"), ("1", "-1"), ("1", "nan")] {
+        let complaint = dynamics(&[&simulate[..], &["--step", step, "--time", time]].concat()).failed(2);
+        assert!(complaint.contains("give a finite number of seconds"), "{complaint}");
+    }
+    let usual = [&simulate[..], &["--step", "0.1", "--time", "1"]].concat();
+    for (extra, expected) in [
+        (["--q", "1"], "the robot has 2 joints"),
+        (["--v", "1,x"], "`x` in `--v` is no number"),
+        (["--q", "0,nan"], "of the joint `hinge` is NaN"),
+        (["-o", &cart], "it is the input"),
+        (["-o", "no/such/folder.csv"], "cannot be written"),
+    ] {
+        let complaint = dynamics(&[&usual[..], &extra].concat()).failed(1);
+        assert!(complaint.contains(expected), "{complaint}");
+    }
+    let endless = [&simulate[..], &["--step", "1e-300", "--time", "1"]].concat();
+    assert!(dynamics(&endless).failed(1).contains("too many steps"));
+    // What was computed before is written.
+    let coarse = [&simulate[..], &["--step", "1e4", "--time", "1e6", "--v", "0,1e3"]].concat();
+    let done = dynamics(&coarse);
+    assert!(done.code == 1 && done.stdout.lines().count() > 1, "{}", done.stderr);
+    assert!(
+        done.stderr.contains("is not finite at this state, 20000.0 s after the start"),
+        "{}",
+        done.stderr
+    );
+}
+
+#[test]
+fn a_wrong_command_line_is_a_matter_of_its_own() {
+    let cart = model("cartpole");
+    for (arguments, expected) in [
+        (&["frobnicate"][..], "unrecognized subcommand"),
+        (&["check"], "<FILE>"),
+        (&["check", &cart, "--allow", "all"], "nonphysical_inertia"),
+        (&["check", &cart, "--snap", "maybe"], "on, off"),
+        (&["generate", &cart], "--lang"),
+        (&["generate", &cart, "--lang", "c"], "there is `rust`"),
+        (&["generate", &cart, "--lang", "rust", "--name", "a b"], "no identifier"),
+        (&["generate", &cart, "--lang", "rust", "--check"], "--output"),
+        (&["simulate", &cart, "--step", "1", "--time", "1", "--every", "0"], "--every"),
+    ] {
+        let complaint = dynamics(arguments).failed(2);
+        assert!(complaint.contains(expected), "{complaint}");
+    }
+}
+
+#[test]
+fn a_file_that_cannot_be_read_line_by_line_is_named_all_the_same() {
+    let file = folder("mistakes").join("long.urdf");
+    let text = cart_with("mass value=\"0.1\"", "mass value=\"-0.1\"").replace('\n', &" ".repeat(200));
+    std::fs::write(&file, text).unwrap();
+    let complaint = dynamics(&["check", file.to_str().unwrap()]).failed(1);
+    assert!(complaint.contains("long.urdf:1:") && complaint.len() < 600, "{complaint}");
+}
