@@ -18,7 +18,8 @@ pub trait Mechanism {
     const BODY_NAMES: &'static [&'static str];
     /// The limits, one entry per velocity coordinate, in the order of `v`.
     const LIMITS: &'static [JointLimits];
-    /// The operations each method takes.
+    /// The operations each method takes; on a robot with parameters, after `prepare`. Of a method so long that it
+    /// recurses over a table of links, an estimate, as its documentation says; all others are counted.
     const COST: Costs;
 }
 

@@ -26,7 +26,13 @@ pub(super) fn write(
     let CompiledMethod { method, plan, cost } = compiled;
     let mut text = String::new();
     let _ = writeln!(text, "    /// {}", headline(*method, context.dof));
-    let _ = writeln!(text, "    ///\n    /// {}.", describe(*cost));
+    let operations = describe(*cost);
+    let _ = match plan {
+        Plan::Table { .. } => {
+            writeln!(text, "    ///\n    /// By recursion over a table of links: about {operations}.")
+        }
+        _ => writeln!(text, "    ///\n    /// {operations}."),
+    };
     match plan {
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
