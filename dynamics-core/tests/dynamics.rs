@@ -3,13 +3,22 @@
 
 mod common;
 
-use common::{DoublePendulum, Pendulum};
+use common::{DoublePendulum, Pendulum, Spinner};
 use dynamics_core::prelude::*;
 
 #[test]
 fn constants_stand_on_the_type() {
     assert_eq!(DoublePendulum::JOINT_NAMES, ["shoulder", "elbow"]);
     assert_eq!(DoublePendulum::COST.inverse_dynamics.multiplications, 0);
+}
+
+#[test]
+fn a_turning_body_has_the_matrix_of_levi_civita() {
+    let (q, v) = (SVector::from([0.0, 0.0, 0.0, 1.0]), SVector::from([1.0, -2.0, 0.5]));
+    let coriolis_matrix = Spinner.coriolis_matrix(&q, &v);
+    assert_eq!(coriolis_matrix * v, Spinner.bias_forces(&q, &v));
+    // The mass matrix is constant: Ṁ = C + Cᵀ = 0.
+    assert_eq!(coriolis_matrix + coriolis_matrix.transpose(), SMatrix::<f64, 3, 3>::zeros());
 }
 
 #[test]

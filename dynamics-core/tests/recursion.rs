@@ -221,7 +221,8 @@ impl Scalar for Dual {
         (sine, Self { value: cos, tangent: -sin * self.tangent })
     }
     fn sqrt(self) -> Self {
-        unimplemented!("no recursion takes a root")
+        let root = self.value.sqrt();
+        Self { value: root, tangent: self.tangent / (2.0 * root) }
     }
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.tangent.is_finite()

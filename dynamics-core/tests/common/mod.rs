@@ -234,8 +234,10 @@ impl Dynamics<f64, 4, 3> for Spinner {
     fn mass_matrix(&self, _q: &SVector<f64, 4>) -> SMatrix<f64, 3, 3> {
         SMatrix::from_diagonal(&vector(MOMENTS))
     }
-    fn coriolis_matrix(&self, _q: &SVector<f64, 4>, _v: &SVector<f64, 3>) -> SMatrix<f64, 3, 3> {
-        unimplemented!("no test asks for it")
+    /// `½ (ω̂ I + I ω̂ − (I ω)^)`, Levi-Civita's.
+    fn coriolis_matrix(&self, q: &SVector<f64, 4>, v: &SVector<f64, 3>) -> SMatrix<f64, 3, 3> {
+        let inertia = self.mass_matrix(q);
+        (v.cross_matrix() * inertia + inertia * v.cross_matrix() - (inertia * v).cross_matrix()) * 0.5
     }
     fn gravity_forces(&self, _q: &SVector<f64, 4>) -> SVector<f64, 3> {
         SVector::zeros()
