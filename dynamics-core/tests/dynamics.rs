@@ -59,3 +59,10 @@ fn an_overflowing_result_is_reported() {
     let x = SVector::from([1.0]);
     assert_eq!(robot.try_inverse_dynamics(&x, &x, &x), Err(Error::NotFinite { vector: "tau", index: 0 }));
 }
+
+#[test]
+fn speeds_that_overflow_are_no_singular_mass_matrix() {
+    let (q, v) = (SVector::from([0.3, -0.8]), SVector::from([1e200, 1e200]));
+    let a = DoublePendulum.try_forward_dynamics(&q, &v, &SVector::zeros());
+    assert!(matches!(a, Err(Error::NotFinite { vector: "a", .. })), "{a:?}");
+}
