@@ -35,6 +35,7 @@ fn tip(tree: &Tree<f64>, q: f64) -> Pose<f64> {
         let moved = match link.motion {
             Motion::Revolute => rz(q),
             Motion::Prismatic => shift(0.0, 0.0, q),
+            Motion::Ball | Motion::Free => unreachable!("these robots have one degree of freedom a joint"),
         };
         poses.push(parent * link.placement * moved);
     }

@@ -6,13 +6,15 @@
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, ch. 7.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::columns::{Direction, Twist};
 use super::motion::{LinkVelocity, velocities};
 use super::normal::{NormalTree, PlacedJoint};
 use super::rnea::Wrench;
 use crate::model::Motion;
 use crate::spatial::{Matrix3, PseudoInertia, Scalar, Symmetric3, Vector3};
 
-/// The joint accelerations that `tau` causes.
+/// The accelerations of the columns that the forces `tau` on them cause. Columns of one joint are folded one after
+/// another.
 pub fn forward_dynamics<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S], tau: &[S]) -> Vec<S> {
     let joints = tree.place(q);
     let velocity = velocities(tree, &joints, qd);
@@ -65,19 +67,26 @@ fn drifts<S: Scalar>(
     velocity: &[LinkVelocity<S>],
     qd: &[S],
 ) -> Vec<Rate<S>> {
+    let speeds = tree.joint_motions(qd);
     let drift = |k: usize| {
         let joint = &joints[k];
         let w_parent = tree.links[k].parent.map_or(Vector3::zero(), |p| velocity[p].w);
         let centripetal = joint.down(w_parent.cross(w_parent.cross(joint.position)));
-        let sweep = velocity[k].w.cross_z().scale(qd[k]);
+        let (w, Twist { angular, linear }) = (velocity[k].w, speeds[k]);
         match joint.motion {
-            Motion::Revolute => Rate { angular: sweep, linear: centripetal },
+            Motion::Revolute => Rate { angular: w.cross_z().scale(angular.0[2]), linear: centripetal },
             Motion::Prismatic => {
+                let sweep = w.cross_z().scale(linear.0[2]);
                 Rate { angular: Vector3::zero(), linear: centripetal + sweep.scale(S::from(2)) }
+            }
+            Motion::Ball | Motion::Free => {
+                let carried = joint.down(w_parent);
+                let sweep = (carried + w).cross(linear);
+                Rate { angular: carried.cross(angular), linear: centripetal + sweep }
             }
         }
     };
-    (0..tree.dof()).map(drift).collect()
+    (0..tree.links.len()).map(drift).collect()
 }
 
 fn tip_to_base<S: Scalar>(
@@ -91,16 +100,26 @@ fn tip_to_base<S: Scalar>(
         tree.links.iter().map(|link| own_inertia(&link.inertia)).collect();
     let mut wrenches: Vec<Wrench<S>> =
         tree.links.iter().zip(velocity).map(|(link, v)| velocity_wrench(&link.inertia, v)).collect();
-    let mut folded = vec![None; tree.dof()];
-    for k in (0..tree.dof()).rev() {
-        let joint = fold(&inertias[k], &wrenches[k], joints[k].motion, tau[k]);
-        if let Some(parent) = tree.links[k].parent {
-            let inertia = without_joint(&inertias[k], &joint, joints[k].motion);
-            let wrench = wrenches[k] + without_joint_wrench(&inertia, &joint, drift[k]);
-            inertias[parent] = sum(inertias[parent], inertia_up(&inertia, &joints[k]));
+    let mut folded = vec![None; tree.columns.len()];
+    for k in (0..tree.links.len()).rev() {
+        let parent = tree.links[k].parent;
+        for c in tree.columns_of(k).rev() {
+            let direction = tree.columns[c].direction;
+            let armature = tree.links[k].passive.armature;
+            let joint = fold(&inertias[k], &wrenches[k], direction, armature, tau[c]);
+            if parent.is_some() || c != tree.columns_of(k).start {
+                inertias[k] = without_joint(&inertias[k], &joint, direction, !armature.is_zero());
+                let pushed = joint.u * joint.inverse_D;
+                wrenches[k] = wrenches[k]
+                    + Wrench { N: joint.U.angular.scale(pushed), F: joint.U.linear.scale(pushed) };
+            }
+            folded[c] = Some(joint);
+        }
+        if let Some(parent) = parent {
+            let wrench = wrenches[k] + wrench_for(&inertias[k], drift[k]);
+            inertias[parent] = sum(inertias[parent], inertia_up(&inertias[k], &joints[k]));
             wrenches[parent] = wrenches[parent] + wrench.up(&joints[k]);
         }
-        folded[k] = Some(joint);
     }
     folded.into_iter().flatten().collect()
 }
@@ -112,18 +131,20 @@ fn base_to_tip<S: Scalar>(
     folded: &[Joint<S>],
 ) -> Vec<S> {
     let base = Rate { angular: Vector3::zero(), linear: -tree.gravity };
-    let mut rates: Vec<Rate<S>> = Vec::with_capacity(tree.dof());
-    let mut accelerations = Vec::with_capacity(tree.dof());
+    let mut rates: Vec<Rate<S>> = Vec::with_capacity(tree.links.len());
+    let mut accelerations = Vec::with_capacity(tree.columns.len());
     for (k, (link, joint)) in tree.links.iter().zip(joints).enumerate() {
-        let rate = link.parent.map_or(base, |p| rates[p]).down(joint) + drift[k];
-        let Joint { U, inverse_D, u } = folded[k];
-        let a = (u - (U.angular.dot(rate.angular) + U.linear.dot(rate.linear))) * inverse_D;
-        let along = Vector3::unit_z().scale(a);
-        rates.push(match joint.motion {
-            Motion::Revolute => Rate { angular: rate.angular + along, ..rate },
-            Motion::Prismatic => Rate { linear: rate.linear + along, ..rate },
-        });
-        accelerations.push(a);
+        let mut rate = link.parent.map_or(base, |p| rates[p]).down(joint) + drift[k];
+        for c in tree.columns_of(k) {
+            let Joint { U, inverse_D, u } = folded[c];
+            let a = (u - (U.angular.dot(rate.angular) + U.linear.dot(rate.linear))) * inverse_D;
+            match tree.columns[c].direction {
+                Direction::About(k) => rate.angular.0[k] = rate.angular.0[k] + a,
+                Direction::Along(k) => rate.linear.0[k] = rate.linear.0[k] + a,
+            }
+            accelerations.push(a);
+        }
+        rates.push(rate);
     }
     accelerations
 }
@@ -143,20 +164,34 @@ fn velocity_wrench<S: Scalar>(inertia: &PseudoInertia<S>, velocity: &LinkVelocit
     Wrench { N: w.cross(inertia.rotational().times(w)), F: w.cross(w.cross(h)) }
 }
 
-fn fold<S: Scalar>(inertia: &ArticulatedInertia<S>, wrench: &Wrench<S>, motion: Motion, tau: S) -> Joint<S> {
+/// The armature adds to what the column feels of the inertia beyond it, and to nothing else.
+fn fold<S: Scalar>(
+    inertia: &ArticulatedInertia<S>,
+    wrench: &Wrench<S>,
+    direction: Direction,
+    armature: S,
+    tau: S,
+) -> Joint<S> {
     let ArticulatedInertia { J, H, M } = inertia;
-    let (U, D) = match motion {
-        Motion::Revolute => (Rate { angular: J.full().column(2), linear: H.row(2) }, J.zz),
-        Motion::Prismatic => (Rate { angular: H.column(2), linear: M.full().column(2) }, M.zz),
+    let (U, D) = match direction {
+        Direction::About(k) => {
+            let angular = J.full().column(k);
+            (Rate { angular, linear: H.row(k) }, angular.0[k])
+        }
+        Direction::Along(k) => {
+            let linear = M.full().column(k);
+            (Rate { angular: H.column(k), linear }, linear.0[k])
+        }
     };
-    Joint { U, inverse_D: S::one() / D, u: tau - wrench.along_joint(motion) }
+    Joint { U, inverse_D: S::one() / (D + armature), u: tau - wrench.along(direction) }
 }
 
-/// `I − U Uᵀ/D`; what lies along the joint is zero.
+/// `I − U Uᵀ/D`; what lies along a column without armature is zero.
 fn without_joint<S: Scalar>(
     inertia: &ArticulatedInertia<S>,
     joint: &Joint<S>,
-    motion: Motion,
+    direction: Direction,
+    has_armature: bool,
 ) -> ArticulatedInertia<S> {
     let Rate { angular: n, linear: f } = joint.U;
     let (dn, df) = (n.scale(joint.inverse_D), f.scale(joint.inverse_D));
@@ -169,32 +204,30 @@ fn without_joint<S: Scalar>(
     let mut J = less(inertia.J, dn, n);
     let mut M = less(inertia.M, df, f);
     let mut H = inertia.H + Matrix3::outer(dn, f).scale(-S::one());
-    match motion {
-        Motion::Revolute => {
-            (J.zz, J.xz, J.yz) = (o, o, o);
-            H.0[2] = [o; 3];
+    if has_armature {
+        return ArticulatedInertia { J, H, M };
+    }
+    match direction {
+        Direction::About(k) => {
+            J = J.without(k);
+            H.0[k] = [o; 3];
         }
-        Motion::Prismatic => {
-            (M.zz, M.xz, M.yz) = (o, o, o);
+        Direction::Along(k) => {
+            M = M.without(k);
             for row in &mut H.0 {
-                row[2] = o;
+                row[k] = o;
             }
         }
     }
     ArticulatedInertia { J, H, M }
 }
 
-/// What the joint's own force and the drift add to the wrench: `I c + U u/D`.
-fn without_joint_wrench<S: Scalar>(
-    inertia: &ArticulatedInertia<S>,
-    joint: &Joint<S>,
-    drift: Rate<S>,
-) -> Wrench<S> {
+/// The wrench `I c` for a rate `c`.
+fn wrench_for<S: Scalar>(inertia: &ArticulatedInertia<S>, rate: Rate<S>) -> Wrench<S> {
     let ArticulatedInertia { J, H, M } = *inertia;
-    let pushed = joint.u * joint.inverse_D;
     Wrench {
-        N: J.times(drift.angular) + H * drift.linear + joint.U.angular.scale(pushed),
-        F: H.transpose() * drift.angular + M.times(drift.linear) + joint.U.linear.scale(pushed),
+        N: J.times(rate.angular) + H * rate.linear,
+        F: H.transpose() * rate.angular + M.times(rate.linear),
     }
 }
 

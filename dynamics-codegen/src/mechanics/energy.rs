@@ -3,9 +3,10 @@
 
 use super::motion::velocities;
 use super::normal::NormalTree;
+use super::passive::armatures;
 use crate::spatial::{PseudoInertia, Scalar};
 
-/// `T = ½ Σ (wᵀJw + 2 vᵀ(w × h) + m vᵀv)`, J.
+/// `T = ½ Σ (wᵀJw + 2 vᵀ(w × h) + m vᵀv)`, with the rotors' own energy, J.
 pub fn kinetic_energy<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S]) -> S {
     let joints = tree.place(q);
     let velocity = velocities(tree, &joints, qd);
@@ -17,6 +18,9 @@ pub fn kinetic_energy<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S]) -> S {
         let coupling = w.cross(h).dot(v);
         twice = twice + w.dot(angular) + coupling.twice() + v.dot(v) * mass;
     }
+    for (armature, &speed) in armatures(tree).into_iter().zip(qd) {
+        twice = twice + armature * (speed * speed);
+    }
     twice * (S::one() / S::from(2))
 }
 
@@ -26,7 +30,7 @@ pub fn potential_energy<S: Scalar>(tree: &NormalTree<S>, q: &[S]) -> S {
     let mut masses: Vec<(S, _)> =
         tree.links.iter().map(|link| (link.inertia.mass, link.inertia.first)).collect();
     let (mut mass, mut first) = (tree.at_rest.mass, tree.at_rest.first);
-    for k in (0..tree.dof()).rev() {
+    for k in (0..tree.links.len()).rev() {
         let (m, h) = masses[k];
         let h = joints[k].up(h) + joints[k].position.scale(m);
         match tree.links[k].parent {

@@ -2,213 +2,19 @@
 
 use super::aba;
 use super::composite::{self, Square};
+use super::coupling::{Coupling, elimination_parents};
 use super::energy;
 use super::factor::Factor;
 use super::frames::{self, Axes};
 use super::gauge::regauge;
+pub use super::method::{Argument, Block, Equation, Input, Inputs, Method, Shape};
 use super::normal::NormalTree;
+use super::passive;
 use super::regroup::regroup;
-use super::rnea::inverse_dynamics;
+use super::rnea;
 use super::unit;
 use crate::model::Model;
-use crate::symbolic::{Differentiator, Expr, Graph, Number, SymbolId};
-
-/// What a generated method computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Method {
-    /// `M(q)`
-    MassMatrix,
-    /// `C(q,v)`
-    CoriolisMatrix,
-    /// `G(q)`
-    GravityForces,
-    /// `C·v + G`
-    BiasForces,
-    /// `τ`
-    InverseDynamics,
-    /// `a`
-    ForwardDynamics,
-    /// `T`
-    KineticEnergy,
-    /// `V`
-    PotentialEnergy,
-    /// `T − V`
-    Lagrangian,
-    /// `M`, `C` and `G`
-    EquationsOfMotion,
-    /// `∂τ/∂q`, `∂τ/∂v`, `∂τ/∂a`
-    InverseDynamicsDerivatives,
-    /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ`
-    ForwardDynamicsDerivatives,
-    /// The pose of a frame.
-    Pose(usize),
-    /// The body Jacobian of a frame.
-    Jacobian(usize),
-    /// The Jacobian of a frame in world axes.
-    WorldJacobian(usize),
-}
-
-impl Method {
-    /// The methods that every robot has.
-    pub const OF_ROBOT: [Method; 12] = [
-        Method::MassMatrix,
-        Method::CoriolisMatrix,
-        Method::GravityForces,
-        Method::BiasForces,
-        Method::InverseDynamics,
-        Method::ForwardDynamics,
-        Method::KineticEnergy,
-        Method::PotentialEnergy,
-        Method::Lagrangian,
-        Method::EquationsOfMotion,
-        Method::InverseDynamicsDerivatives,
-        Method::ForwardDynamicsDerivatives,
-    ];
-
-    /// The methods of the trait of derivatives.
-    pub const OF_DERIVATIVES: [Method; 2] =
-        [Method::InverseDynamicsDerivatives, Method::ForwardDynamicsDerivatives];
-
-    /// The method's name in the trait.
-    pub fn name(self) -> &'static str {
-        match self {
-            Method::MassMatrix => "mass_matrix",
-            Method::CoriolisMatrix => "coriolis_matrix",
-            Method::GravityForces => "gravity_forces",
-            Method::BiasForces => "bias_forces",
-            Method::InverseDynamics => "inverse_dynamics",
-            Method::ForwardDynamics => "forward_dynamics",
-            Method::KineticEnergy => "kinetic_energy",
-            Method::PotentialEnergy => "potential_energy",
-            Method::Lagrangian => "lagrangian",
-            Method::EquationsOfMotion => "equations_of_motion",
-            Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
-            Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
-            Method::Pose(_) => "pose",
-            Method::Jacobian(_) => "jacobian",
-            Method::WorldJacobian(_) => "world_jacobian",
-        }
-    }
-
-    /// The arguments of the method.
-    pub fn arguments(self) -> &'static [Argument] {
-        use Argument::{A, Q, Tau, V};
-        match self {
-            Method::MassMatrix
-            | Method::GravityForces
-            | Method::PotentialEnergy
-            | Method::Pose(_)
-            | Method::Jacobian(_)
-            | Method::WorldJacobian(_) => &[Q],
-            Method::CoriolisMatrix
-            | Method::BiasForces
-            | Method::KineticEnergy
-            | Method::Lagrangian
-            | Method::EquationsOfMotion => &[Q, V],
-            Method::InverseDynamics | Method::InverseDynamicsDerivatives => &[Q, V, A],
-            Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
-        }
-    }
-}
-
-/// A vector that a method is given.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Argument {
-    /// Coordinates.
-    Q,
-    /// Speeds.
-    V,
-    /// Accelerations.
-    A,
-    /// Joint forces.
-    Tau,
-}
-
-impl Argument {
-    /// All of them, in order.
-    pub const ALL: [Argument; 4] = [Argument::Q, Argument::V, Argument::A, Argument::Tau];
-
-    /// The argument's name.
-    pub fn name(self) -> &'static str {
-        match self {
-            Argument::Q => "q",
-            Argument::V => "v",
-            Argument::A => "a",
-            Argument::Tau => "tau",
-        }
-    }
-}
-
-/// The inputs of the equations: parameters first, then coordinates, speeds, accelerations, forces.
-#[derive(Clone, Copy, Debug)]
-pub struct Inputs {
-    /// How many parameters there are.
-    pub parameters: usize,
-    /// How many degrees of freedom.
-    pub dof: usize,
-}
-
-/// What a symbol stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Input {
-    /// The field with this index among the model's parameters.
-    Parameter(usize),
-    /// A component of an argument.
-    Argument(Argument, usize),
-}
-
-impl Inputs {
-    /// The meaning of a symbol.
-    pub fn meaning(self, symbol: SymbolId) -> Input {
-        let index = symbol.0 as usize;
-        match index.checked_sub(self.parameters) {
-            None => Input::Parameter(index),
-            Some(rest) => Input::Argument(Argument::ALL[rest / self.dof], rest % self.dof),
-        }
-    }
-
-    /// The symbol of a component of an argument.
-    pub fn symbol(self, argument: Argument, k: usize) -> SymbolId {
-        let index = self.parameters + argument as usize * self.dof + k;
-        SymbolId(u32::try_from(index).expect("fewer than 2^32 inputs"))
-    }
-
-    /// The components of an argument.
-    pub fn vector<'g>(self, graph: &'g Graph, argument: Argument) -> Vec<Expr<'g>> {
-        (0..self.dof).map(|k| graph.variable(self.symbol(argument, k))).collect()
-    }
-}
-
-/// A block of numbers that a method returns.
-#[derive(Clone, Debug)]
-pub struct Block<'g> {
-    /// A letter for its entries, and the field that takes it where a method returns several.
-    pub name: &'static str,
-    /// The shape.
-    pub shape: Shape,
-    /// The entries, by rows.
-    pub entries: Vec<Expr<'g>>,
-}
-
-/// The shape of a block.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Shape {
-    /// A number.
-    Scalar,
-    /// A column.
-    Vector(usize),
-    /// Rows and columns.
-    Matrix(usize, usize),
-}
-
-/// One method's result.
-#[derive(Clone, Debug)]
-pub struct Equation<'g> {
-    /// Which method.
-    pub method: Method,
-    /// What it returns.
-    pub blocks: Vec<Block<'g>>,
-}
+use crate::symbolic::{Differentiator, Expr, Graph, Number};
 
 /// The largest robot for which the equations by matrices and the chain rule may be cheaper than recursions.
 const LARGEST_FOR_MATRICES: usize = 3;
@@ -230,28 +36,33 @@ pub struct Derivation<'g> {
     kinematic: NormalTree<Expr<'g>>,
     /// For everything with mass: regrouped, in a unit of length of its own.
     dynamic: NormalTree<Expr<'g>>,
+    /// From the robot's speeds to those of the columns, on which the recursions run.
+    coupling: Coupling<Expr<'g>>,
     q: Vec<Expr<'g>>,
+    /// The speeds of the columns, their accelerations at no acceleration of the robot's, and so on.
     v: Vec<Expr<'g>>,
     a: Vec<Expr<'g>>,
-    tau: Vec<Expr<'g>>,
     rest: Vec<Expr<'g>>,
+    tau: Vec<Expr<'g>>,
 }
 
 impl<'g> Derivation<'g> {
     /// The derivation of `model`.
     pub fn of(model: &Model<'g>, graph: &'g Graph) -> Self {
-        let inputs = Inputs { parameters: model.parameters.len(), dof: model.tree.dof() };
+        let inputs = Inputs::of(model);
         let kinematic = regauge(&model.tree);
+        let coupling = Coupling::of(&kinematic, inputs.dof);
         Self {
             inputs,
             graph,
             dynamic: regroup(&kinematic),
-            kinematic,
             q: inputs.vector(graph, Argument::Q),
-            v: inputs.vector(graph, Argument::V),
-            a: inputs.vector(graph, Argument::A),
+            v: coupling.spread(&inputs.vector(graph, Argument::V)),
+            a: coupling.spread(&inputs.vector(graph, Argument::A)),
+            rest: vec![Expr::ZERO; kinematic.columns.len()],
             tau: inputs.vector(graph, Argument::Tau),
-            rest: vec![Expr::ZERO; inputs.dof],
+            coupling,
+            kinematic,
         }
     }
 
@@ -271,7 +82,7 @@ impl<'g> Derivation<'g> {
             return self.forward_dynamics_alternatives();
         }
         let mut alternatives = vec![self.blocks(method)];
-        if self.inputs.dof <= LARGEST_FOR_MATRICES {
+        if self.is_small() {
             alternatives.extend(self.blocks_by_matrices(method));
         }
         alternatives
@@ -284,19 +95,32 @@ impl<'g> Derivation<'g> {
         if chain <= LONGEST_FOR_FACTORING {
             alternatives.push(self.blocks(Method::ForwardDynamics));
         }
-        if self.inputs.dof <= LARGEST_FOR_MATRICES {
+        if self.is_small() {
             alternatives.extend(self.blocks_by_matrices(Method::ForwardDynamics));
         }
-        if chain >= SHORTEST_FOR_ARTICULATED_BODIES {
-            let a = aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &self.tau);
+        if chain >= SHORTEST_FOR_ARTICULATED_BODIES && self.coupling.is_identity() {
+            let passive = passive::forces(&self.dynamic, &self.q, &self.v);
+            let driving: Vec<Expr<'g>> = difference(&self.tau, passive);
+            let a = aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &driving);
             alternatives.push(vec![vector("a", a)]);
         }
         alternatives
     }
 
+    /// Whether matrices and the chain rule by coordinates may be cheaper than recursions.
+    fn is_small(&self) -> bool {
+        self.inputs.dof <= LARGEST_FOR_MATRICES && self.inputs.coordinates == self.inputs.dof
+    }
+
+    /// The most degrees of freedom from a tip to the base; none that articulated bodies could fold where joints
+    /// follow others.
     fn longest_chain(&self) -> usize {
-        let links = 0..self.inputs.dof;
-        links.map(|link| self.dynamic.path_to_base(link).count()).max().unwrap_or(0)
+        if !self.coupling.is_identity() {
+            return 0;
+        }
+        let columns = &self.dynamic.columns;
+        let path = |column| std::iter::successors(Some(column), |&k: &usize| columns[k].parent).count();
+        (0..columns.len()).map(path).max().unwrap_or(0)
     }
 
     /// The same by `M`, `C`, `G` and the chain rule, where that is another way.
@@ -304,9 +128,8 @@ impl<'g> Derivation<'g> {
         Some(match method {
             Method::BiasForces => vec![vector("h", self.bias_by_matrices())],
             Method::InverseDynamics => {
-                let inertial = times(&self.mass_matrix(), &self.a);
-                let bias = self.bias_by_matrices();
-                vec![vector("tau", inertial.into_iter().zip(bias).map(|(ma, h)| ma + h).collect())]
+                let inertial = times(&self.mass_matrix(), &self.inputs.vector(self.graph, Argument::A));
+                vec![vector("tau", sum(inertial, self.bias_by_matrices()))]
             }
             Method::ForwardDynamics => vec![vector("a", self.acceleration(self.bias_by_matrices()).0)],
             Method::KineticEnergy => vec![scalar(self.kinetic_energy_by_matrices())],
@@ -320,44 +143,57 @@ impl<'g> Derivation<'g> {
     }
 
     fn bias_by_matrices(&self) -> Vec<Expr<'g>> {
-        let coriolis = times(&composite::coriolis_matrix(&self.dynamic, &self.q, &self.v), &self.v);
-        coriolis.into_iter().zip(self.gravity_forces()).map(|(cv, g)| cv + g).collect()
+        let coriolis = times(&self.coriolis_matrix(), &self.speeds());
+        sum(sum(coriolis, self.gravity_forces()), self.passive_forces())
     }
 
     fn kinetic_energy_by_matrices(&self) -> Expr<'g> {
-        let momenta = times(&self.mass_matrix(), &self.v);
-        let twice = momenta.into_iter().zip(&self.v).fold(Expr::ZERO, |sum, (p, &v)| sum + p * v);
+        let speeds = self.speeds();
+        let momenta = times(&self.mass_matrix(), &speeds);
+        let twice = momenta.into_iter().zip(&speeds).fold(Expr::ZERO, |sum, (p, &v)| sum + p * v);
         Expr::from(Number::ratio(1, 2)) * twice
+    }
+
+    /// The robot's own speeds.
+    fn speeds(&self) -> Vec<Expr<'g>> {
+        self.inputs.vector(self.graph, Argument::V)
     }
 
     /// What a method returns.
     pub fn blocks(&self, method: Method) -> Vec<Block<'g>> {
-        let (tree, q, v, a) = (&self.dynamic, &self.q, &self.v, &self.a);
+        let (tree, q, v) = (&self.dynamic, &self.q, &self.v);
         match method {
             Method::MassMatrix => vec![square("m", self.mass_matrix())],
-            Method::CoriolisMatrix => vec![square("c", composite::coriolis_matrix(tree, q, v))],
+            Method::CoriolisMatrix => vec![square("c", self.coriolis_matrix())],
             Method::GravityForces => vec![vector("g", self.gravity_forces())],
             Method::BiasForces => vec![vector("h", self.bias_forces())],
-            Method::InverseDynamics => vec![vector("tau", inverse_dynamics(tree, q, v, a))],
+            Method::PassiveForces => vec![vector("f", self.passive_forces())],
+            Method::InverseDynamics => vec![vector("tau", self.inverse_dynamics(&self.a))],
             Method::ForwardDynamics => vec![vector("a", self.forward_dynamics().0)],
+            Method::InverseMassMatrix => vec![square("inverse", self.factor().inverse())],
             Method::KineticEnergy => vec![scalar(energy::kinetic_energy(tree, q, v))],
             Method::PotentialEnergy => vec![scalar(energy::potential_energy(tree, q))],
+            Method::ElasticEnergy => vec![scalar(passive::elastic_energy(tree, q))],
             Method::Lagrangian => {
                 vec![scalar(energy::kinetic_energy(tree, q, v) - energy::potential_energy(tree, q))]
             }
             Method::EquationsOfMotion => vec![
                 square("mass_matrix", self.mass_matrix()),
-                square("coriolis_matrix", composite::coriolis_matrix(tree, q, v)),
+                square("coriolis_matrix", self.coriolis_matrix()),
                 vector("gravity_forces", self.gravity_forces()),
             ],
             Method::InverseDynamicsDerivatives => {
-                let derivatives = composite::inverse_dynamics_derivatives(tree, q, v, a);
-                self.derivative_blocks(derivatives.dtau_dq, derivatives.dtau_dv)
+                let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.a);
+                self.derivative_blocks(dtau_dq, dtau_dv)
             }
             Method::ForwardDynamicsDerivatives => self.forward_dynamics_derivatives(),
             Method::Pose(frame) => self.pose(frame),
             Method::Jacobian(frame) => vec![self.jacobian(frame, Axes::Body)],
             Method::WorldJacobian(frame) => vec![self.jacobian(frame, Axes::World)],
+            Method::Velocity(frame) => vec![vector("twist", self.frame_motion(frame).velocity.to_vec())],
+            Method::Acceleration(frame) => {
+                vec![vector("rate", self.frame_motion(frame).acceleration.to_vec())]
+            }
         }
     }
 
@@ -366,7 +202,7 @@ impl<'g> Derivation<'g> {
     }
 
     fn inverse_dynamics_derivatives_by_chain_rule(&self) -> Vec<Block<'g>> {
-        let tau = inverse_dynamics(&self.dynamic, &self.q, &self.v, &self.a);
+        let tau = self.inverse_dynamics(&self.a);
         let with_respect_to = |argument: Argument| {
             let mut columns: Vec<Differentiator<'g>> = (0..self.inputs.dof)
                 .map(|k| Differentiator::new(self.graph, self.inputs.symbol(argument, k)))
@@ -377,15 +213,47 @@ impl<'g> Derivation<'g> {
     }
 
     fn mass_matrix(&self) -> Square<Expr<'g>> {
-        composite::mass_matrix(&self.dynamic, &self.q)
+        let mut m = composite::mass_matrix(&self.dynamic, &self.q);
+        add_to_diagonal(&mut m, passive::armatures(&self.dynamic));
+        self.coupling.gather_both(m)
+    }
+
+    fn coriolis_matrix(&self) -> Square<Expr<'g>> {
+        self.coupling.gather_both(composite::coriolis_matrix(&self.dynamic, &self.q, &self.v))
     }
 
     fn gravity_forces(&self) -> Vec<Expr<'g>> {
-        inverse_dynamics(&self.dynamic, &self.q, &self.rest, &self.rest)
+        self.coupling.gather(rnea::inverse_dynamics(&self.dynamic, &self.q, &self.rest, &self.rest))
+    }
+
+    fn passive_forces(&self) -> Vec<Expr<'g>> {
+        self.coupling.gather(passive::forces(&self.dynamic, &self.q, &self.v))
     }
 
     fn bias_forces(&self) -> Vec<Expr<'g>> {
-        inverse_dynamics(&self.dynamic, &self.q, &self.v, &self.rest)
+        self.inverse_dynamics(&self.rest)
+    }
+
+    /// τ at the accelerations `a` of the columns.
+    fn inverse_dynamics(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
+        let (tree, q, v) = (&self.dynamic, &self.q, &self.v);
+        let rotors = passive::armatures(tree).into_iter().zip(a).map(|(armature, &a)| armature * a);
+        let bodies = rnea::inverse_dynamics(tree, q, v, a);
+        self.coupling.gather(sum(sum(bodies, rotors.collect()), passive::forces(tree, q, v)))
+    }
+
+    /// `∂τ/∂q` and `∂τ/∂v` at the accelerations `a` of the columns.
+    fn inverse_dynamics_derivatives(&self, a: &[Expr<'g>]) -> (Square<Expr<'g>>, Square<Expr<'g>>) {
+        let (tree, q, v) = (&self.dynamic, &self.q, &self.v);
+        let mut derivatives = composite::inverse_dynamics_derivatives(tree, q, v, a);
+        add_to_diagonal(&mut derivatives.dtau_dq, passive::stiffnesses(tree));
+        add_to_diagonal(&mut derivatives.dtau_dv, passive::dampings(tree, q, v));
+        (self.coupling.gather_both(derivatives.dtau_dq), self.coupling.gather_both(derivatives.dtau_dv))
+    }
+
+    fn factor(&self) -> Factor<Expr<'g>> {
+        let parents = elimination_parents(&self.dynamic.columns, self.inputs.dof);
+        Factor::of(&self.mass_matrix(), parents)
     }
 
     fn forward_dynamics(&self) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
@@ -394,21 +262,19 @@ impl<'g> Derivation<'g> {
 
     /// `a = M⁻¹ (τ − h)`, and the factors of M.
     fn acceleration(&self, bias: Vec<Expr<'g>>) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
-        let parents = self.dynamic.links.iter().map(|link| link.parent).collect();
-        let factor = Factor::of(&self.mass_matrix(), parents);
-        let driving: Vec<Expr<'g>> = self.tau.iter().zip(bias).map(|(&tau, h)| tau - h).collect();
-        (factor.solve(&driving), factor)
+        let factor = self.factor();
+        (factor.solve(&difference(&self.tau, bias)), factor)
     }
 
     /// `∂a/∂q = −M⁻¹ ∂τ/∂q` and `∂a/∂v = −M⁻¹ ∂τ/∂v` at the acceleration that τ causes.
     fn forward_dynamics_derivatives(&self) -> Vec<Block<'g>> {
         let (a, factor) = self.forward_dynamics();
-        let inverse = composite::inverse_dynamics_derivatives(&self.dynamic, &self.q, &self.v, &a);
+        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.coupling.spread(&a));
         let negated =
             |m: Square<Expr<'g>>| m.into_iter().map(|row| row.into_iter().map(|x| -x).collect()).collect();
         vec![
-            square("da_dq", factor.solve_matrix(&negated(inverse.dtau_dq))),
-            square("da_dv", factor.solve_matrix(&negated(inverse.dtau_dv))),
+            square("da_dq", factor.solve_matrix(&negated(dtau_dq))),
+            square("da_dv", factor.solve_matrix(&negated(dtau_dv))),
             square("da_dtau", factor.inverse()),
         ]
     }
@@ -421,12 +287,32 @@ impl<'g> Derivation<'g> {
 
     fn jacobian(&self, frame: usize, axes: Axes) -> Block<'g> {
         let rows = frames::jacobian(&self.kinematic, &self.kinematic.frames[frame], &self.q, axes);
+        let rows = self.coupling.gather_columns(rows);
         Block { name: "j", shape: Shape::Matrix(6, self.inputs.dof), entries: rows.concat() }
+    }
+
+    fn frame_motion(&self, frame: usize) -> frames::FrameMotion<Expr<'g>> {
+        let tree = &self.kinematic;
+        frames::motion(tree, &tree.frames[frame], &self.q, &self.v, &self.a)
     }
 }
 
 fn times<'g>(m: &Square<Expr<'g>>, x: &[Expr<'g>]) -> Vec<Expr<'g>> {
     m.iter().map(|row| row.iter().zip(x).fold(Expr::ZERO, |sum, (&m, &x)| sum + m * x)).collect()
+}
+
+fn sum<'g>(a: Vec<Expr<'g>>, b: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+    a.into_iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+fn difference<'g>(a: &[Expr<'g>], b: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
+    a.iter().zip(b).map(|(&a, b)| a - b).collect()
+}
+
+fn add_to_diagonal<'g>(m: &mut Square<Expr<'g>>, diagonal: Vec<Expr<'g>>) {
+    for (k, value) in diagonal.into_iter().enumerate() {
+        m[k][k] = m[k][k] + value;
+    }
 }
 
 fn scalar(value: Expr<'_>) -> Block<'_> {

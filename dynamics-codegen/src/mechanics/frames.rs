@@ -1,8 +1,9 @@
-//! Forward kinematics: poses and Jacobians of frames.
+//! Forward kinematics: poses, Jacobians and motions of frames.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::columns::Direction;
+use super::motion::{LinkAcceleration, LinkVelocity, accelerations, velocities};
 use super::normal::{NormalFrame, NormalTree, PlacedJoint};
-use crate::model::Motion;
 use crate::spatial::{Matrix3, Pose, Scalar, Vector3};
 
 /// The pose of a frame in the world.
@@ -32,9 +33,9 @@ pub enum Axes {
     World,
 }
 
-/// The 6×n Jacobian of a frame, linear rows first, by rows.
+/// The 6×n Jacobian of a frame for the columns, linear rows first, by rows.
 pub fn jacobian<S: Scalar>(tree: &NormalTree<S>, frame: &NormalFrame<S>, q: &[S], axes: Axes) -> Vec<Vec<S>> {
-    let mut J = vec![vec![S::zero(); tree.dof()]; 6];
+    let mut J = vec![vec![S::zero(); tree.columns.len()]; 6];
     let Some(link) = frame.link else { return J };
     let joints = tree.place(q);
     // `R_kE`, from the axes of the answer to link k's, and the frame's origin in link k.
@@ -45,14 +46,11 @@ pub fn jacobian<S: Scalar>(tree: &NormalTree<S>, frame: &NormalFrame<S>, q: &[S]
             Axes::Body => turned,
             Axes::World => link_pose(tree, &joints, k).rotation.transpose(),
         };
-        let [x, y, _] = origin.0;
-        let axis = rotation.row(2);
-        let (linear, angular) = match joints[k].motion {
-            Motion::Revolute => (rotation.row(1).scale(x) - rotation.row(0).scale(y), axis),
-            Motion::Prismatic => (axis, Vector3::zero()),
-        };
-        for (row, entry) in J.iter_mut().zip(linear.0.into_iter().chain(angular.0)) {
-            row[k] = entry;
+        for c in tree.columns_of(k) {
+            let (linear, angular) = seen_from(tree.columns[c].direction, rotation, origin);
+            for (row, entry) in J.iter_mut().zip(linear.0.into_iter().chain(angular.0)) {
+                row[c] = entry;
+            }
         }
         if tree.links[k].parent.is_some() {
             origin = joints[k].position + joints[k].up(origin);
@@ -60,4 +58,54 @@ pub fn jacobian<S: Scalar>(tree: &NormalTree<S>, frame: &NormalFrame<S>, q: &[S]
         }
     }
     J
+}
+
+/// The linear and the angular velocity at `origin` of a unit motion, in the axes that `rotation` takes to the link's.
+fn seen_from<S: Scalar>(
+    direction: Direction,
+    rotation: Matrix3<S>,
+    origin: Vector3<S>,
+) -> (Vector3<S>, Vector3<S>) {
+    match direction {
+        Direction::Along(k) => (rotation.row(k), Vector3::zero()),
+        Direction::About(k) => {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            let linear = rotation.row(last).scale(origin.0[next]) - rotation.row(next).scale(origin.0[last]);
+            (linear, rotation.row(k))
+        }
+    }
+}
+
+/// A frame's motion: the rates of its twist as well as the twist, in its own axes, linear first.
+pub struct FrameMotion<S> {
+    /// `J·v`
+    pub velocity: [S; 6],
+    /// `J·a + J̇·v`, without gravity.
+    pub acceleration: [S; 6],
+}
+
+/// The motion of a frame at speeds `qd` and accelerations `qdd` of the columns.
+pub fn motion<S: Scalar>(
+    tree: &NormalTree<S>,
+    frame: &NormalFrame<S>,
+    q: &[S],
+    qd: &[S],
+    qdd: &[S],
+) -> FrameMotion<S> {
+    let Some(link) = frame.link else {
+        return FrameMotion { velocity: [S::zero(); 6], acceleration: [S::zero(); 6] };
+    };
+    let joints = tree.place(q);
+    let weightless = NormalTree { gravity: Vector3::zero(), ..tree.clone() };
+    let LinkVelocity { w, v } = velocities(&weightless, &joints, qd)[link];
+    let LinkAcceleration { U, wd, a, .. } = accelerations(&weightless, &joints, qd, qdd)[link];
+    let (R, p) = (frame.pose.rotation.transpose(), frame.pose.translation);
+    let velocity = v + w.cross(p);
+    // The origin's acceleration, less what comes of the turning axes.
+    let rate = a + U * p - w.cross(velocity);
+    let both = |linear: Vector3<S>, angular: Vector3<S>| {
+        let ([x, y, z], [i, j, k]) = ((R * linear).0, (R * angular).0);
+        [x, y, z, i, j, k]
+    };
+    FrameMotion { velocity: both(velocity, w), acceleration: both(rate, wd) }
 }

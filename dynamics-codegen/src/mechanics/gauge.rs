@@ -7,16 +7,17 @@
 //!
 //! W. Khalil, E. Dombre, *Modeling, Identification and Control of Robots*, 2002, ch. 3.
 
+use super::columns::columns;
 use super::normal::{NormalFrame, NormalLink, NormalTree};
 use super::rotation::{PlanarTurn, Turn};
-use crate::model::Tree;
+use crate::model::{Drive, Motion, Tree};
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Vector3};
 use crate::symbolic::{Expr, Number};
 
 /// The tree with its frames chosen anew; the masses are what they were.
 pub fn regauge<'g>(tree: &Tree<Expr<'g>>) -> NormalTree<Expr<'g>> {
-    let mut changes: Vec<Change<'g>> = Vec::with_capacity(tree.dof());
-    let mut links = Vec::with_capacity(tree.dof());
+    let mut changes: Vec<Change<'g>> = Vec::with_capacity(tree.links.len());
+    let mut links = Vec::with_capacity(tree.links.len());
     let (base, base_in_first) = base_frame(tree);
     for (k, link) in tree.links.iter().enumerate() {
         let joint = match link.parent {
@@ -42,6 +43,7 @@ pub fn regauge<'g>(tree: &Tree<Expr<'g>>) -> NormalTree<Expr<'g>> {
         base,
         at_rest: tree.base.transformed(base.inverse()),
         gravity: tidy_vector(base.rotation.transpose() * tree.gravity),
+        columns: columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive))),
         links,
     }
 }
@@ -65,11 +67,18 @@ impl<'g> Change<'g> {
 
     /// The change for link `k`, whose joint has the pose `joint` in its parent's new frame.
     fn of_link(tree: &Tree<Expr<'g>>, k: usize, joint: Pose<Expr<'g>>) -> Self {
+        if matches!(tree.links[k].motion, Motion::Ball | Motion::Free) {
+            return Self::NONE;
+        }
         let child = tree.links.iter().find(|link| link.parent == Some(k));
         let Some(child) = child else { return Self::free(joint) };
         let axis = tidy_vector(child.placement.rotation.column(2));
         let Some([x, y, z]) = constants(axis) else { return Self::NONE };
         let origin = child.placement.translation;
+        if matches!(child.motion, Motion::Ball | Motion::Free) {
+            // There is no axis beyond: the origin goes where the joint's centre is nearest.
+            return Self { shift: origin.0[2], ..Self::to_parallel_axis(origin, Self::free(joint)) };
+        }
         if (x * x + y * y).cmp_value(nearly_parallel()).is_lt() {
             return Self::to_parallel_axis(origin, Self::free(joint));
         }
@@ -119,17 +128,25 @@ fn normal_link<'g>(
     change: Change<'g>,
 ) -> NormalLink<Expr<'g>> {
     let link = &tree.links[k];
+    let keeps_frame = matches!(link.motion, Motion::Ball | Motion::Free);
     let (turn, beta) = match decompose(joint.rotation) {
-        Some((turn, beta)) => (turn, beta),
-        None => (Turn::General(joint.rotation), PlanarTurn::identity()),
+        Some((turn, beta)) if !keeps_frame => (turn, beta),
+        _ => (Turn::General(joint.rotation), PlanarTurn::identity()),
     };
     let inertia = link.inertia.transformed(change.pose().inverse());
+    let Drive { q, v, ratio, offset } = link.drive;
+    let (angle, distance) = match link.motion {
+        Motion::Prismatic => (PlanarTurn::identity(), offset),
+        _ => (PlanarTurn::of_angle(offset), Expr::ZERO),
+    };
     NormalLink {
         parent: link.parent,
         motion: link.motion,
+        drive: Drive { q, v, ratio, offset },
+        passive: link.passive,
         turn,
-        offset: tidy_turn(beta.then(change.turn)),
-        position: tidy_vector(joint.translation + joint.rotation.column(2).scale(change.shift)),
+        offset: tidy_turn(beta.then(change.turn).then(angle)),
+        position: tidy_vector(joint.translation + joint.rotation.column(2).scale(change.shift + distance)),
         inertia: tidy_inertia(inertia),
     }
 }

@@ -1,15 +1,19 @@
 //! From a tree to its equations. One algorithm, one file.
 
 pub mod aba;
+pub mod columns;
 pub mod composite;
+pub mod coupling;
 pub mod energy;
 pub mod equations;
 pub mod factor;
 pub mod frames;
 pub mod gauge;
 pub mod lagrange;
+pub mod method;
 pub mod motion;
 pub mod normal;
+pub mod passive;
 pub mod plain;
 pub mod regroup;
 pub mod rnea;

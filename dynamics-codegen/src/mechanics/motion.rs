@@ -8,6 +8,7 @@
 //! structure robots*, 1987, for sharing U; its columns along a parent's axis are one vector turned downwards.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::columns::Twist;
 use super::normal::{NormalTree, PlacedJoint};
 use crate::model::Motion;
 use crate::spatial::{Matrix3, Scalar, Vector3};
@@ -43,7 +44,7 @@ impl<S: Scalar> LinkAcceleration<S> {
     }
 }
 
-/// Accelerations of all links, for joint speeds `qd` and accelerations `qdd`.
+/// Accelerations of all links, for speeds `qd` and accelerations `qdd` of the columns.
 pub fn accelerations<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
@@ -51,17 +52,55 @@ pub fn accelerations<S: Scalar>(
     qdd: &[S],
 ) -> Vec<LinkAcceleration<S>> {
     let base = LinkAcceleration::of_base(tree.gravity);
-    let mut links: Vec<LinkAcceleration<S>> = Vec::with_capacity(tree.dof());
+    let (speeds, rates) = (tree.joint_motions(qd), tree.joint_motions(qdd));
+    let mut links: Vec<LinkAcceleration<S>> = Vec::with_capacity(tree.links.len());
     for (k, (link, joint)) in tree.links.iter().zip(joints).enumerate() {
         let parent = link.parent.map_or(&base, |p| &links[p]);
         let a = joint.down(parent.a + parent.U * joint.position);
+        let (speed, rate) = (speeds[k], rates[k]);
         let next = match joint.motion {
-            Motion::Revolute => revolute(parent, joint, qd[k], qdd[k], a),
-            Motion::Prismatic => prismatic(parent, joint, qd[k], qdd[k], a),
+            Motion::Revolute => revolute(parent, joint, speed.angular.0[2], rate.angular.0[2], a),
+            Motion::Prismatic => prismatic(parent, joint, speed.linear.0[2], rate.linear.0[2], a),
+            Motion::Ball | Motion::Free => free(parent, joint, speed, rate, a),
         };
         links.push(next);
     }
     links
+}
+
+/// The motion of each link's parent in the link's own frame, at its origin: what carries the joint along. Of one
+/// degree of freedom the link's own serves as well, for its joint's part commutes with itself.
+pub fn carriers<S: Scalar>(
+    tree: &NormalTree<S>,
+    joints: &[PlacedJoint<S>],
+    links: &[LinkAcceleration<S>],
+) -> Vec<LinkAcceleration<S>> {
+    let base = LinkAcceleration::of_base(tree.gravity);
+    let carrier = |(k, joint): (usize, &PlacedJoint<S>)| {
+        if matches!(joint.motion, Motion::Revolute | Motion::Prismatic) {
+            return links[k];
+        }
+        let parent = tree.links[k].parent.map_or(&base, |p| &links[p]);
+        let a = joint.down(parent.a + parent.U * joint.position);
+        LinkAcceleration::from_rates(joint.down(parent.w), joint.down(parent.wd), a)
+    };
+    joints.iter().enumerate().map(carrier).collect()
+}
+
+/// A ball joint, or one that does not hold: `speed` and `rate` are of the link against its parent, in its own axes.
+fn free<S: Scalar>(
+    parent: &LinkAcceleration<S>,
+    joint: &PlacedJoint<S>,
+    speed: Twist<S>,
+    rate: Twist<S>,
+    a: Vector3<S>,
+) -> LinkAcceleration<S> {
+    let carried = joint.down(parent.w);
+    let w = carried + speed.angular;
+    let wd = joint.down(parent.wd) + carried.cross(speed.angular) + rate.angular;
+    // Half of Coriolis' term comes of the turning axes in which the speed is written.
+    let a = a + (carried + w).cross(speed.linear) + rate.linear;
+    LinkAcceleration::from_rates(w, wd, a)
 }
 
 fn revolute<S: Scalar>(
@@ -127,23 +166,57 @@ pub struct LinkVelocity<S> {
     pub v: Vector3<S>,
 }
 
-/// Velocities of all links, for joint speeds `qd`.
+impl<S: Scalar> LinkVelocity<S> {
+    /// At rest.
+    fn zero() -> Self {
+        Self { w: Vector3::zero(), v: Vector3::zero() }
+    }
+
+    /// Halfway between the two.
+    pub fn mean(self, other: Self) -> Self {
+        let half = S::one() / S::from(2);
+        Self { w: (self.w + other.w).scale(half), v: (self.v + other.v).scale(half) }
+    }
+
+    /// As a twist.
+    pub fn twist(self) -> Twist<S> {
+        Twist { angular: self.w, linear: self.v }
+    }
+
+    /// In the frame of the link beyond the joint, without the joint's own.
+    fn down(self, joint: &PlacedJoint<S>) -> Self {
+        Self { w: joint.down(self.w), v: joint.down(self.v + self.w.cross(joint.position)) }
+    }
+}
+
+/// Velocities of all links, for speeds `qd` of the columns.
 pub fn velocities<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
     qd: &[S],
 ) -> Vec<LinkVelocity<S>> {
-    let base = LinkVelocity { w: Vector3::zero(), v: Vector3::zero() };
-    let mut links: Vec<LinkVelocity<S>> = Vec::with_capacity(tree.dof());
-    for ((link, joint), &qd) in tree.links.iter().zip(joints).zip(qd) {
-        let parent = link.parent.map_or(&base, |p| &links[p]);
-        let w = joint.down(parent.w);
-        let v = joint.down(parent.v + parent.w.cross(joint.position));
-        let along = Vector3::unit_z().scale(qd);
-        links.push(match joint.motion {
-            Motion::Revolute => LinkVelocity { w: w + along, v },
-            Motion::Prismatic => LinkVelocity { w, v: v + along },
-        });
+    let speeds = tree.joint_motions(qd);
+    let mut links: Vec<LinkVelocity<S>> = Vec::with_capacity(tree.links.len());
+    for (k, (link, joint)) in tree.links.iter().zip(joints).enumerate() {
+        let carried = link.parent.map_or(LinkVelocity::zero(), |p| links[p]).down(joint);
+        let Twist { angular, linear } = speeds[k];
+        links.push(LinkVelocity { w: carried.w + angular, v: carried.v + linear });
     }
     links
+}
+
+/// The velocity of each link's parent in the link's own frame, at its origin; of one degree of freedom the link's
+/// own, as of [`carriers`].
+pub fn carrier_velocities<S: Scalar>(
+    tree: &NormalTree<S>,
+    joints: &[PlacedJoint<S>],
+    links: &[LinkVelocity<S>],
+) -> Vec<LinkVelocity<S>> {
+    let carrier = |(k, joint): (usize, &PlacedJoint<S>)| match joint.motion {
+        Motion::Revolute | Motion::Prismatic => links[k],
+        Motion::Ball | Motion::Free => {
+            tree.links[k].parent.map_or(LinkVelocity::zero(), |p| links[p]).down(joint)
+        }
+    };
+    joints.iter().enumerate().map(carrier).collect()
 }

@@ -1,13 +1,15 @@
 //! The tree in normal form: the frames and masses on which the specialised recursions run.
 //!
-//! Every link's frame has z on its joint's axis and turns by `Rz(q + offset)` after a constant turn. What is
+//! Every link's frame has z on its joint's axis and turns by `Rz(q + offset)` after a constant turn; the link of a
+//! ball or a free joint keeps its own frame, in which its speeds are written. What is
 //! constant between two joints is as sparse as the geometry allows ([`gauge`](super::gauge)), and mass that
 //! can belong to a parent does ([`regroup`](super::regroup)). The world's frame is replaced by a base frame.
 //!
 //! W. Khalil, J.-F. Kleinfinger, *A new geometric notation for open and closed-loop robots*, ICRA 1986.
 
+use super::columns::{Column, Direction, Twist};
 use super::rotation::{PlanarTurn, Turn};
-use crate::model::Motion;
+use crate::model::{Drive, Motion, Passive};
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Scalar, Vector3};
 
 /// A moving link in normal form.
@@ -17,6 +19,10 @@ pub struct NormalLink<S> {
     pub parent: Option<usize>,
     /// How the joint moves.
     pub motion: Motion,
+    /// What moves it; its offset is in `offset` or `position`.
+    pub drive: Drive<S>,
+    /// What acts in it by itself.
+    pub passive: Passive<S>,
     /// The constant turn `R_PJ` from the parent's frame to the joint's.
     pub turn: Turn<S>,
     /// The constant turn about z that adds to the joint's own. It is applied to the joint's sine and cosine, not
@@ -52,17 +58,34 @@ pub struct NormalTree<S> {
     pub gravity: Vector3<S>,
     /// The frames of the bodies.
     pub frames: Vec<NormalFrame<S>>,
+    /// The degrees of freedom of the links, one by one.
+    pub columns: Vec<Column<S>>,
 }
 
 impl<S: Scalar> NormalTree<S> {
-    /// The number of degrees of freedom.
-    pub fn dof(&self) -> usize {
-        self.links.len()
+    /// The columns of each link.
+    pub fn columns_of(&self, link: usize) -> std::ops::Range<usize> {
+        let begin = |link| self.columns.partition_point(|column| column.link < link);
+        begin(link)..begin(link + 1)
     }
 
     /// The joints at the configuration `q`.
     pub fn place(&self, q: &[S]) -> Vec<PlacedJoint<S>> {
-        self.links.iter().zip(q).map(|(link, &q)| PlacedJoint::new(link, q)).collect()
+        self.links.iter().map(|link| PlacedJoint::new(link, q)).collect()
+    }
+
+    /// What each link does against its parent at the speeds `v` of the columns; of accelerations, what they add.
+    pub fn joint_motions(&self, v: &[S]) -> Vec<Twist<S>> {
+        let rest = Twist { angular: Vector3::zero(), linear: Vector3::zero() };
+        let mut motions = vec![rest; self.links.len()];
+        for (column, &speed) in self.columns.iter().zip(v) {
+            let motion = &mut motions[column.link];
+            match column.direction {
+                Direction::Along(k) => motion.linear.0[k] = speed,
+                Direction::About(k) => motion.angular.0[k] = speed,
+            }
+        }
+        motions
     }
 
     /// The links from `link` down to the base, `link` first.
@@ -82,18 +105,27 @@ pub struct PlacedJoint<S> {
     pub position: Vector3<S>,
     /// The joint's axis in the parent's frame.
     pub axis: Vector3<S>,
-    /// Revolute or prismatic.
+    /// How it moves.
     pub motion: Motion,
 }
 
 impl<S: Scalar> PlacedJoint<S> {
-    fn new(link: &NormalLink<S>, q: S) -> Self {
+    fn new(link: &NormalLink<S>, q: &[S]) -> Self {
+        let NormalLink { drive, position, .. } = *link;
         let axis = link.turn.up(Vector3::unit_z());
-        let (about_z, position) = match link.motion {
-            Motion::Revolute => (PlanarTurn::of_angle(q).then(link.offset), link.position),
-            Motion::Prismatic => (link.offset, link.position + axis.scale(q)),
-        };
-        Self { constant: link.turn, about_z, position, axis, motion: link.motion }
+        let placed = Self { constant: link.turn, about_z: link.offset, position, axis, motion: link.motion };
+        let own = &q[drive.q..];
+        match link.motion {
+            Motion::Revolute => {
+                Self { about_z: PlanarTurn::of_angle(drive.ratio * own[0]).then(link.offset), ..placed }
+            }
+            Motion::Prismatic => Self { position: position + axis.scale(drive.ratio * own[0]), ..placed },
+            Motion::Ball => Self { constant: turned(link.turn, own), ..placed },
+            Motion::Free => {
+                let position = position + link.turn.up(Vector3([own[0], own[1], own[2]]));
+                Self { constant: turned(link.turn, &own[3..]), position, ..placed }
+            }
+        }
     }
 
     /// `R_PLᵀ v`: from the parent's axes to the link's.
@@ -120,4 +152,9 @@ impl<S: Scalar> PlacedJoint<S> {
     pub fn axis_is_a_parent_axis(&self) -> bool {
         self.axis.0.iter().all(|x| x.as_sign().is_some())
     }
+}
+
+/// The constant turn and behind it that of the unit quaternion that begins with `q`.
+fn turned<S: Scalar>(constant: Turn<S>, q: &[S]) -> Turn<S> {
+    Turn::General(constant.matrix() * Matrix3::of_quaternion([q[0], q[1], q[2], q[3]]))
 }

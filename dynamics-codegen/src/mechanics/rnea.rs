@@ -7,9 +7,9 @@
 //! W. Khalil's, W. Khalil, E. Dombre 2002, ch. 9.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::columns::Direction;
 use super::motion::{LinkAcceleration, accelerations};
 use super::normal::{NormalTree, PlacedJoint};
-use crate::model::Motion;
 use crate::spatial::{PseudoInertia, Scalar, Symmetric3, Vector3};
 
 /// A force and its moment about the origin of the frame it is written in.
@@ -28,11 +28,16 @@ impl<S: Scalar> Wrench<S> {
         Self { F, N: joint.up(self.N) + joint.position.cross(F) }
     }
 
-    /// What the joint along or about z feels of it.
-    pub fn along_joint(self, motion: Motion) -> S {
-        match motion {
-            Motion::Revolute => self.N.0[2],
-            Motion::Prismatic => self.F.0[2],
+    /// No force.
+    pub fn zero() -> Self {
+        Self { F: Vector3::zero(), N: Vector3::zero() }
+    }
+
+    /// What a degree of freedom feels of it.
+    pub fn along(self, direction: Direction) -> S {
+        match direction {
+            Direction::Along(k) => self.F.0[k],
+            Direction::About(k) => self.N.0[k],
         }
     }
 }
@@ -44,13 +49,13 @@ impl<S: Scalar> std::ops::Add for Wrench<S> {
     }
 }
 
-/// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)`.
+/// The forces `τ = M(q)·a + C(q,v)·v + G(q)` of the columns, without rotors and passive forces.
 pub fn inverse_dynamics<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S], qdd: &[S]) -> Vec<S> {
     let joints = tree.place(q);
     let motion = accelerations(tree, &joints, qd, qdd);
     let wrenches = tree.links.iter().zip(&motion).map(|(link, motion)| link_wrench(&link.inertia, motion));
     let wrenches = collect_tip_to_base(tree, &joints, wrenches.collect());
-    wrenches.iter().zip(&joints).map(|(wrench, joint)| wrench.along_joint(joint.motion)).collect()
+    tree.columns.iter().map(|column| wrenches[column.link].along(column.direction)).collect()
 }
 
 /// Adds to each link's wrench those of all its descendants.
@@ -59,7 +64,7 @@ pub fn collect_tip_to_base<S: Scalar>(
     joints: &[PlacedJoint<S>],
     mut wrenches: Vec<Wrench<S>>,
 ) -> Vec<Wrench<S>> {
-    for k in (0..tree.dof()).rev() {
+    for k in (0..tree.links.len()).rev() {
         if let Some(parent) = tree.links[k].parent {
             wrenches[parent] = wrenches[parent] + wrenches[k].up(&joints[k]);
         }

@@ -4,6 +4,8 @@
 //! other has a pivot that is nothing but rounding at all of them; one that is singular at some states only has not.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::columns::columns;
+use super::coupling::elimination_parents;
 use super::factor::Factor;
 use super::plain::Oracle;
 use crate::model::Model;
@@ -25,10 +27,16 @@ pub fn idle_motion(model: &Model<'_>, graph: &Graph) -> Option<Vec<usize>> {
     let sample = |symbol: SymbolId| model.parameters[symbol.0 as usize].sample;
     let mut evaluator = Evaluator::new(graph, sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
-    let parents: Vec<Option<usize>> = tree.links.iter().map(|link| link.parent).collect();
+    let parents = elimination_parents(
+        &columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive))),
+        n,
+    );
     let motion_at = |state: usize| {
         // Irrational steps: no angle is like another, and none is a right one.
-        let q: Vec<f64> = (0..n).map(|k| (0.7 + 1.618_034 * (state * n + k) as f64) % 3.0).collect();
+        let size = tree.coordinates();
+        let mut q: Vec<f64> =
+            (0..size).map(|k| (0.7 + 1.618_034 * (state * size + k) as f64) % 3.0).collect();
+        tree.normalise(&mut q);
         idle_motion_of(&Oracle::new(&tree).mass_matrix(&q), &parents)
     };
     let first = motion_at(0)?;

@@ -9,13 +9,13 @@ use crate::spatial::PseudoInertia;
 use crate::symbolic::{Expr, Number};
 
 /// The distances that could be the unit, without repetition, in the order of the links; one comes first.
-/// Sliding joints and distances that are parameters leave no choice.
+/// Joints that slide and distances that are parameters leave no choice.
 pub fn candidates(tree: &NormalTree<Expr<'_>>) -> Vec<Number> {
     let mut found = vec![Number::ONE];
     for link in &tree.links {
         for component in link.position.0 {
             match component.as_number() {
-                Some(value) if link.motion == Motion::Revolute => {
+                Some(value) if matches!(link.motion, Motion::Revolute | Motion::Ball) => {
                     let length = value.abs();
                     if !length.is_zero() && !found.contains(&length) {
                         found.push(length);

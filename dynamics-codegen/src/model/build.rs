@@ -7,7 +7,7 @@ use super::quantities::slots;
 use super::shapes::{pseudo_inertia, snap_of};
 use super::topology::Topology;
 use super::values::Values;
-use super::{Frame, JointInfo, Limits, Link, Model, Motion, Tree, lines, physics};
+use super::{Drive, Frame, JointInfo, Limits, Link, Model, Motion, Passive, Tree, lines, physics};
 use crate::diagnostics::Diagnostics;
 use crate::spatial::{Pose, PseudoInertia, Vector3};
 use crate::spec::{Formula, JointKind, JointSpec, RobotSpec};
@@ -106,8 +106,10 @@ impl<'g> Assembly<'_, 'g> {
                         JointKind::Prismatic => Motion::Prismatic,
                         _ => Motion::Revolute,
                     };
-                    let inertia = PseudoInertia::zero();
-                    links.push((coordinate, Link { parent: parent.link, motion, placement, inertia }));
+                    let (inertia, passive) = (PseudoInertia::zero(), Passive::none());
+                    let drive = Drive::own(coordinate, coordinate);
+                    let parent = parent.link;
+                    links.push((coordinate, Link { parent, motion, drive, passive, placement, inertia }));
                     Site { link: Some(coordinate), pose: geometry[joint].body }
                 }
             };

@@ -16,7 +16,7 @@ mod values;
 
 pub use build::build;
 pub use lines::OUTPUTS;
-pub use tree::{Frame, Link, Motion, Tree};
+pub use tree::{Drive, Frame, Link, Motion, Passive, Tree};
 
 use crate::symbolic::{Expr, SymbolId};
 

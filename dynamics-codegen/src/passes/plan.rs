@@ -5,6 +5,8 @@
 //! the base.
 
 use super::{Cost, Program};
+use crate::mechanics::columns::columns;
+use crate::mechanics::coupling::elimination_parents;
 use crate::mechanics::equations::{Block, Method};
 use crate::model::Model;
 
@@ -55,20 +57,20 @@ pub(super) struct Plans {
 
 impl Plans {
     pub(super) fn of(model: &Model<'_>) -> Self {
-        let parent = |k: usize| model.tree.links[k].parent;
-        let ancestors: Vec<Vec<usize>> = (0..model.tree.dof())
-            .map(|k| std::iter::successors(parent(k), |&k| parent(k)).collect())
-            .collect();
-        let below = |link: Option<usize>| link.map_or(0, |link| ancestors[link].len() + 1);
+        let links = &model.tree.links;
+        let columns = columns(links.iter().map(|link| (link.parent, link.motion, link.drive)));
+        let parents = elimination_parents(&columns, model.tree.dof());
+        let ancestors: Vec<Vec<usize>> =
+            parents.iter().map(|&parent| std::iter::successors(parent, |&k| parents[k]).collect()).collect();
+        let depth = |link: usize| std::iter::successors(Some(link), |&k| links[k].parent).count();
+        let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
         Self { frames: model.tree.frames.len(), frame_joints, ancestors }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
         let too_long = match method {
-            Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_) => {
-                self.statements(method) * self.frames > LONGEST_KINEMATICS
-            }
+            _ if method.frame().is_some() => self.statements(method) * self.frames > LONGEST_KINEMATICS,
             _ => self.statements(method) > LONGEST_STRAIGHT_LINE,
         };
         match method {
@@ -89,6 +91,8 @@ impl Plans {
             Method::CoriolisMatrix | Method::EquationsOfMotion => 16 * pairs,
             Method::InverseDynamicsDerivatives => 36 * pairs,
             Method::GravityForces | Method::PotentialEnergy => 10 * n,
+            Method::PassiveForces | Method::ElasticEnergy => 6 * n,
+            Method::InverseMassMatrix => 4 * pairs + 2 * n * pairs,
             Method::BiasForces | Method::InverseDynamics => 40 * n,
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
             Method::ForwardDynamics => 80 * n,
@@ -96,6 +100,8 @@ impl Plans {
             Method::ForwardDynamicsDerivatives => 0,
             Method::Pose(_) => 12 * self.frame_joints / self.frames.max(1),
             Method::Jacobian(_) | Method::WorldJacobian(_) => 16 * self.frame_joints / self.frames.max(1),
+            Method::Velocity(_) => 20 * self.frame_joints / self.frames.max(1),
+            Method::Acceleration(_) => 30 * self.frame_joints / self.frames.max(1),
         }
     }
 

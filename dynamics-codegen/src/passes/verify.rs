@@ -68,8 +68,10 @@ impl Sample {
         let mut evaluator = Evaluator::new(compiled.graph, value);
         let tree = model.tree.map(|expr| evaluator.value(expr));
         let mut random = Random(seed + 1);
-        let mut vector = || (0..model.tree.dof()).map(|_| random.next()).collect::<Vec<f64>>();
-        let (q, v, a, tau) = (vector(), vector(), vector(), vector());
+        let mut vector = |size: usize| (0..size).map(|_| random.next()).collect::<Vec<f64>>();
+        let n = model.tree.dof();
+        let (mut q, v, a, tau) = (vector(model.tree.coordinates()), vector(n), vector(n), vector(n));
+        tree.normalise(&mut q);
         let fields = compiled
             .companion
             .preparation
@@ -102,7 +104,10 @@ impl Sample {
             Method::GravityForces => off(oracle.gravity_forces(q)),
             Method::BiasForces => off(oracle.bias_forces(q, v)),
             Method::InverseDynamics => off(oracle.inverse_dynamics(q, v, a)),
+            Method::PassiveForces => off(oracle.passive_forces(q, v)),
+            Method::InverseMassMatrix => self.inverse_off(&found),
             Method::KineticEnergy => off(vec![oracle.kinetic_energy(q, v)]),
+            Method::ElasticEnergy => off(vec![oracle.elastic_energy(q)]),
             Method::PotentialEnergy => off(vec![oracle.potential_energy(q)]),
             Method::Lagrangian => {
                 let size = oracle.kinetic_energy(q, v).abs() + oracle.potential_energy(q).abs();
@@ -139,7 +144,16 @@ impl Sample {
             }
             Method::Jacobian(frame) => distance(&found, &oracle.body_jacobian(frame, q).concat(), 1.0),
             Method::WorldJacobian(frame) => distance(&found, &oracle.world_jacobian(frame, q).concat(), 1.0),
+            Method::Velocity(frame) => distance(&found, &oracle.velocity(frame, q, v), 1.0),
+            Method::Acceleration(frame) => distance(&found, &oracle.acceleration(frame, q, v, a), 1.0),
         }
+    }
+
+    /// How far a claimed `M⁻¹` misses `M·M⁻¹ = 1`, over `‖|M||M⁻¹|‖`.
+    fn inverse_off(&self, found: &[f64]) -> f64 {
+        let n = self.v.len();
+        let inverse: Rows = found.chunks(n).map(<[f64]>::to_vec).collect();
+        Oracle::new(&self.tree).inverse_mass_matrix_residual(&self.q, &inverse)
     }
 
     fn blocks_off(&self, found: &[f64], size: f64, expected: &[Vec<f64>]) -> f64 {
@@ -154,7 +168,7 @@ impl Sample {
     }
 
     fn derivatives(&self, found: &[f64]) -> ForwardDynamicsDerivatives {
-        let n = self.q.len();
+        let n = self.v.len();
         let rows = |block: usize| -> Rows {
             found[block * n * n..][..n * n].chunks(n).map(<[f64]>::to_vec).collect()
         };

@@ -38,6 +38,19 @@ impl<S: Scalar> Matrix3<S> {
         Self([[c, -s, o], [s, c, o], [o, o, i]])
     }
 
+    /// The rotation of the unit quaternion `i, j, k, w`.
+    pub fn of_quaternion([i, j, k, w]: [S; 4]) -> Self {
+        let (ii, jj, kk) = ((i * i).twice(), (j * j).twice(), (k * k).twice());
+        let (ij, ik, jk) = ((i * j).twice(), (i * k).twice(), (j * k).twice());
+        let (iw, jw, kw) = ((i * w).twice(), (j * w).twice(), (k * w).twice());
+        let one = S::one();
+        Self([
+            [one - (jj + kk), ij - kw, ik + jw],
+            [ij + kw, one - (ii + kk), jk - iw],
+            [ik - jw, jk + iw, one - (ii + jj)],
+        ])
+    }
+
     /// `v̂`, with `v̂ x = v × x`.
     pub fn skew(v: Vector3<S>) -> Self {
         let ([x, y, z], o) = (v.0, S::zero());
@@ -187,6 +200,16 @@ impl<S: Scalar> Symmetric3<S> {
     pub fn trace_minus(self) -> Self {
         let Self { xx, yy, zz, xy, xz, yz } = self;
         Self { xx: yy + zz, yy: xx + zz, zz: xx + yy, xy: -xy, xz: -xz, yz: -yz }
+    }
+
+    /// The matrix with row and column `k` zero.
+    pub fn without(self, k: usize) -> Self {
+        let mut full = self.full();
+        full.0[k] = [S::zero(); 3];
+        for row in &mut full.0 {
+            row[k] = S::zero();
+        }
+        Self::upper_of(full)
     }
 
     /// `self v`

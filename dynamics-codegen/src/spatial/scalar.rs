@@ -40,6 +40,9 @@ pub trait Scalar:
     /// `cos self`
     fn cos(self) -> Self;
 
+    /// `√self` of what cannot be negative.
+    fn sqrt(self) -> Self;
+
     /// `2·self`
     fn twice(self) -> Self {
         self + self
@@ -55,6 +58,9 @@ impl Scalar for f64 {
     }
     fn cos(self) -> Self {
         f64::cos(self)
+    }
+    fn sqrt(self) -> Self {
+        f64::sqrt(self)
     }
 }
 
@@ -75,5 +81,8 @@ impl Scalar for Expr<'_> {
     }
     fn cos(self) -> Self {
         Expr::cos(self)
+    }
+    fn sqrt(self) -> Self {
+        Expr::sqrt(self).expect("the root of a sum of squares")
     }
 }

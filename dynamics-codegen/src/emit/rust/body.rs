@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::names::{CALLED, Names, angle_suffix, component, entry};
-use crate::mechanics::equations::{Block, Input, Shape};
+use crate::mechanics::equations::{Block, Input, Inputs, Shape};
 use crate::passes::{Operand, Operation, Program, Source};
 use crate::symbolic::Number;
 
@@ -36,8 +36,8 @@ pub(super) struct Context<'a> {
     pub(super) parameters: &'a [String],
     /// How constants are written.
     pub(super) literals: Literals,
-    /// The number of degrees of freedom.
-    pub(super) dof: usize,
+    /// The sizes of the arguments.
+    pub(super) inputs: Inputs,
 }
 
 /// The text of a method's body, apart from its frame.

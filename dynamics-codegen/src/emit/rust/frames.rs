@@ -6,7 +6,6 @@ use super::Item;
 use super::items::{Emitter, Host, allowed, indented};
 use super::mechanism::cost;
 use super::methods::Written;
-use crate::mechanics::equations::Method;
 
 impl Emitter<'_, '_> {
     /// The zero-sized types of the frames, in a module of their own and re-exported by a glob, so that two
@@ -38,15 +37,13 @@ impl Emitter<'_, '_> {
         let mut text = String::new();
         let module = frames_module(&self.item.name);
         for (k, (type_, frame)) in self.frame_types.iter().zip(&self.input.model.tree.frames).enumerate() {
-            let (scalar, n) = (&self.scalar, self.dof);
-            let of_frame = [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)];
-            let chosen: Vec<&Written> = written.iter().filter(|w| of_frame.contains(&w.method)).collect();
+            let chosen: Vec<&Written> = written.iter().filter(|w| w.method.frame() == Some(k)).collect();
             if chosen.is_empty() {
                 continue;
             }
             let type_ = format!("{module}::{type_}");
             let (robot, prepared) = (self.robot(), self.prepared());
-            let trait_ = |host: &Host| format!("Frame<{}, {scalar}, {n}, {n}>", host.type_);
+            let trait_ = |host: &Host| self.of_sizes("Frame").replacen('<', &format!("<{}, ", host.type_), 1);
             text.push_str(&self.open(&prepared, &trait_(&prepared), &type_));
             let _ = writeln!(text, "        const NAME: &'static str = {:?};", frame.name);
             text.push_str("        const COST: FrameCosts = FrameCosts {\n");
@@ -66,7 +63,7 @@ impl Emitter<'_, '_> {
                     let receiver = format!("robot: &{}", robot.type_);
                     let callee = format!("<Self as {}>::", trait_(&prepared));
                     let call = self.forwarding(method.method, &receiver, &callee);
-                    text.push_str(&call.replace("(q)\n", "(&robot.prepare(), q)\n"));
+                    text.push_str(&call.replace("(q", "(&robot.prepare(), q"));
                 }
                 text.push_str("    }\n\n");
             }

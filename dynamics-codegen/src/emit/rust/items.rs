@@ -6,7 +6,7 @@ use super::body::{Context, Literals};
 use super::methods::{self, Written};
 use super::names::{self, Names};
 use super::{Form, Input, Item};
-use crate::mechanics::equations::{Input as Symbol, Method};
+use crate::mechanics::equations::{Input as Symbol, Inputs, Method};
 use crate::model::names::{frame_type, hides_a_common_name};
 use crate::symbolic::{Expr, Op};
 
@@ -63,7 +63,7 @@ impl Host {
 pub(super) struct Emitter<'m, 'g> {
     pub(super) input: &'m Input<'m, 'g>,
     pub(super) item: &'m Item,
-    pub(super) dof: usize,
+    pub(super) inputs: Inputs,
     /// The scalar's name in the impls.
     pub(super) scalar: String,
     /// The bound of the scalar where it is no parameter of the robot.
@@ -88,7 +88,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
             input,
             scalar_parameter: is_free.then(|| format!("{scalar}: Scalar")),
             item: input.item,
-            dof: input.compiled.inputs.dof,
+            inputs: input.compiled.inputs,
             scalar,
             parameters,
             fields,
@@ -159,7 +159,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     /// What a body of the companion's impls is written with.
     pub(super) fn context<'a>(&'a self, companion: &'a str) -> Context<'a> {
         let (fields, parameters) = (&self.fields, &self.parameters);
-        Context { companion, fields, parameters, literals: self.literals(), dof: self.dof }
+        Context { companion, fields, parameters, literals: self.literals(), inputs: self.inputs }
     }
 
     fn methods(&self) -> Vec<Written> {
@@ -226,7 +226,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
         if chosen.is_empty() {
             return String::new();
         }
-        let trait_ = format!("{name}<{}, {1}, {1}>", self.scalar, self.dof);
+        let trait_ = self.of_sizes(name);
         let open = |host: &Host| match is_trait {
             true => self.open(host, &trait_, &host.type_),
             false => self.open_without_scalar(host, ""),
@@ -258,12 +258,12 @@ impl<'m, 'g> Emitter<'m, 'g> {
 
     /// A method of the robot that prepares and passes on.
     pub(super) fn forwarding(&self, method: Method, receiver: &str, callee: &str) -> String {
-        let (scalar, n) = (&self.scalar, self.dof);
         let mut arguments = receiver.to_owned();
-        for argument in method.arguments() {
-            let _ = write!(arguments, ", {}: &SVector<{scalar}, {n}>", argument.name());
+        for &argument in method.arguments() {
+            let type_ = methods::argument_type(argument, &self.scalar, self.inputs);
+            let _ = write!(arguments, ", {}: {type_}", argument.name());
         }
-        let returned = methods::return_type(method, scalar, n);
+        let returned = methods::return_type(method, &self.scalar, self.inputs);
         let passed = methods::pass_on(method);
         format!(
             "        #[inline]\n        fn {0}({arguments}) -> {returned} {{\n            {callee}{0}({passed})\n        }}\n",
@@ -271,8 +271,14 @@ impl<'m, 'g> Emitter<'m, 'g> {
         )
     }
 
+    /// A trait of the robot's scalar and sizes: `Dynamics<T, 7, 6>`.
+    pub(super) fn of_sizes(&self, trait_: &str) -> String {
+        let Inputs { coordinates, dof, .. } = self.inputs;
+        format!("{trait_}<{}, {coordinates}, {dof}>", self.scalar)
+    }
+
     fn state_space(&self, written: &[Written]) -> String {
-        let (scalar, n) = (&self.scalar, self.dof);
+        let (scalar, n) = (&self.scalar, self.inputs.dof);
         let mut text = String::new();
         for host in self.types() {
             text.push_str(&self.open(&host, &format!("Configuration<{scalar}, {n}, {n}>"), &host.type_));

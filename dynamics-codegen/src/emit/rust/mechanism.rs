@@ -4,20 +4,21 @@ use std::fmt::Write as _;
 
 use super::items::Emitter;
 use super::methods::{self, Written};
+use crate::mechanics::equations::Inputs;
 use crate::model::Limits;
 use crate::passes::Cost;
 
 impl Emitter<'_, '_> {
     /// The types that the constants are implemented for: no scalar needed on a unit struct.
     pub(super) fn mechanism(&self, written: &[Written]) -> String {
-        let n = self.dof;
+        let Inputs { coordinates, dof: n, .. } = self.inputs;
         let quoted =
             |names: Vec<&str>| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
         let model = self.input.model;
         let joints = quoted(model.joints.iter().map(|joint| joint.name.as_str()).collect());
         let bodies = quoted(model.tree.frames.iter().map(|frame| frame.name.as_str()).collect());
         let mut constants = format!(
-            "        const NQ: usize = {n};\n        const NV: usize = {n};\n        const NU: usize = {n};\n        \
+            "        const NQ: usize = {coordinates};\n        const NV: usize = {n};\n        const NU: usize = {n};\n        \
              const NAME: &'static str = {:?};\n        const JOINT_NAMES: &'static [&'static str] = &[{joints}];\n        \
              const BODY_NAMES: &'static [&'static str] = &[{bodies}];\n",
             model.name

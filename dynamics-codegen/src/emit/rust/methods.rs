@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::body::{self, Body, Context};
-use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
+use crate::mechanics::equations::{Argument, Block, Input, Inputs, Method, Shape};
 use crate::passes::{CompiledMethod, Cost, Plan, Program};
 
 /// A method on its way into an impl.
@@ -25,7 +25,7 @@ pub(super) fn write(
 ) -> Written {
     let CompiledMethod { method, plan, cost } = compiled;
     let mut text = String::new();
-    let _ = writeln!(text, "    /// {}", headline(*method, context.dof));
+    let _ = writeln!(text, "    /// {}", headline(*method, context.inputs.dof));
     let operations = describe(*cost);
     let _ = match plan {
         Plan::Table { .. } => {
@@ -37,8 +37,8 @@ pub(super) fn write(
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
-        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar)),
-        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.dof)),
+        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar, context.inputs)),
+        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.inputs)),
         Plan::Table { frame: Some((link, program)) } => {
             text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
         }
@@ -54,11 +54,11 @@ fn straight_line(
     scalar: &str,
     robot: &str,
 ) -> String {
-    let names = body::entry_names(blocks, context.dof);
+    let names = body::entry_names(blocks, context.inputs.dof);
     let body = body::write(program, &names, context, 2);
     let reads_robot = if body.fields.is_empty() { "_robot" } else { "robot" };
     let receiver = if takes_robot(method) { format!("{reads_robot}: &{robot}") } else { "&self".to_owned() };
-    let mut text = signature(method, &receiver, scalar, context.dof, &body) + "\n";
+    let mut text = signature(method, &receiver, scalar, context.inputs, &body) + "\n";
     text.push_str(&bindings(method, context, &body));
     if !body.statements.is_empty() {
         text.push('\n');
@@ -73,16 +73,16 @@ fn straight_line(
 }
 
 /// The body that leaves everything to the run time's recursion.
-fn by_table(method: Method, scalar: &str, dof: usize) -> String {
+fn by_table(method: Method, scalar: &str, inputs: Inputs) -> String {
     let arguments: String = method
         .arguments()
         .iter()
-        .map(|argument| format!(", {}: &SVector<{scalar}, {dof}>", argument.name()))
+        .map(|&argument| format!(", {}: {}", argument.name(), argument_type(argument, scalar, inputs)))
         .collect();
     format!(
         "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table().{0}({2})\n    }}\n",
         method.name(),
-        return_type(method, scalar, dof),
+        return_type(method, scalar, inputs),
         pass_on(method)
     )
 }
@@ -100,10 +100,10 @@ fn frame_by_table(
     let entries: Vec<&str> = body.results.iter().map(String::as_str).collect();
     let rows: Vec<String> = entries[..9].chunks(3).map(|row| format!("[{}]", row.join(", "))).collect();
     let mut text = format!(
-        "    fn {}(robot: &{robot}, q: &SVector<{scalar}, {}>) -> {} {{\n",
+        "    fn {}(robot: &{robot}, q: {}) -> {} {{\n",
         method.name(),
-        context.dof,
-        return_type(method, scalar, context.dof)
+        argument_type(Argument::Q, scalar, context.inputs),
+        return_type(method, scalar, context.inputs)
     );
     text.push_str(&bindings(method, context, &body));
     let _ = writeln!(
@@ -117,11 +117,12 @@ fn frame_by_table(
 }
 
 /// The body that leaves the solves to the run time.
-fn from_inverse(ancestors: &[Vec<usize>], scalar: &str) -> String {
+fn from_inverse(ancestors: &[Vec<usize>], scalar: &str, inputs: Inputs) -> String {
     let n = ancestors.len();
     let mut text = format!(
-        "    fn forward_dynamics_derivatives(&self, q: &SVector<{scalar}, {n}>, v: &SVector<{scalar}, {n}>, \
-         tau: &SVector<{scalar}, {n}>) -> ForwardDynamicsDerivatives<{scalar}, {n}> {{\n"
+        "    fn forward_dynamics_derivatives(&self, q: &SVector<{scalar}, {}>, v: &SVector<{scalar}, {n}>, \
+         tau: &SVector<{scalar}, {n}>) -> ForwardDynamicsDerivatives<{scalar}, {n}> {{\n",
+        inputs.coordinates
     );
     let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
     for ancestors in ancestors {
@@ -137,34 +138,48 @@ fn from_inverse(ancestors: &[Vec<usize>], scalar: &str) -> String {
 
 /// Whether the method belongs to a frame, and is given the robot.
 pub(super) fn takes_robot(method: Method) -> bool {
-    matches!(method, Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_))
+    method.frame().is_some()
 }
 
 /// The signature without the body.
-pub(super) fn signature(method: Method, receiver: &str, scalar: &str, dof: usize, body: &Body) -> String {
+pub(super) fn signature(method: Method, receiver: &str, scalar: &str, inputs: Inputs, body: &Body) -> String {
     let mut arguments = receiver.to_owned();
     for &argument in method.arguments() {
         let read =
             body.inputs.iter().any(|(input, _)| matches!(input, Input::Argument(a, _) if *a == argument));
         let underscore = if read { "" } else { "_" };
-        let _ = write!(arguments, ", {underscore}{}: &SVector<{scalar}, {dof}>", argument.name());
+        let type_ = argument_type(argument, scalar, inputs);
+        let _ = write!(arguments, ", {underscore}{}: {type_}", argument.name());
     }
-    format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, dof))
+    format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, inputs))
+}
+
+/// The type of an argument.
+pub(super) fn argument_type(argument: Argument, scalar: &str, inputs: Inputs) -> String {
+    format!("&SVector<{scalar}, {}>", inputs.size(argument))
 }
 
 /// The type that a method returns.
-pub(super) fn return_type(method: Method, scalar: &str, dof: usize) -> String {
+pub(super) fn return_type(method: Method, scalar: &str, inputs: Inputs) -> String {
+    let n = inputs.dof;
     match method {
-        Method::MassMatrix | Method::CoriolisMatrix => format!("SMatrix<{scalar}, {dof}, {dof}>"),
-        Method::GravityForces | Method::BiasForces | Method::InverseDynamics | Method::ForwardDynamics => {
-            format!("SVector<{scalar}, {dof}>")
+        Method::MassMatrix | Method::CoriolisMatrix | Method::InverseMassMatrix => {
+            format!("SMatrix<{scalar}, {n}, {n}>")
         }
-        Method::KineticEnergy | Method::PotentialEnergy | Method::Lagrangian => scalar.to_owned(),
-        Method::EquationsOfMotion => format!("EquationsOfMotion<{scalar}, {dof}>"),
-        Method::InverseDynamicsDerivatives => format!("InverseDynamicsDerivatives<{scalar}, {dof}>"),
-        Method::ForwardDynamicsDerivatives => format!("ForwardDynamicsDerivatives<{scalar}, {dof}>"),
+        Method::GravityForces
+        | Method::BiasForces
+        | Method::PassiveForces
+        | Method::InverseDynamics
+        | Method::ForwardDynamics => format!("SVector<{scalar}, {n}>"),
+        Method::KineticEnergy | Method::PotentialEnergy | Method::ElasticEnergy | Method::Lagrangian => {
+            scalar.to_owned()
+        }
+        Method::EquationsOfMotion => format!("EquationsOfMotion<{scalar}, {n}>"),
+        Method::InverseDynamicsDerivatives => format!("InverseDynamicsDerivatives<{scalar}, {n}>"),
+        Method::ForwardDynamicsDerivatives => format!("ForwardDynamicsDerivatives<{scalar}, {n}>"),
         Method::Pose(_) => format!("Pose<{scalar}>"),
-        Method::Jacobian(_) | Method::WorldJacobian(_) => format!("SMatrix<{scalar}, 6, {dof}>"),
+        Method::Jacobian(_) | Method::WorldJacobian(_) => format!("SMatrix<{scalar}, 6, {n}>"),
+        Method::Velocity(_) | Method::Acceleration(_) => format!("SVector<{scalar}, 6>"),
     }
 }
 
@@ -174,10 +189,13 @@ fn headline(method: Method, n: usize) -> String {
         Method::CoriolisMatrix => format!("`C(q,v)`: {n}×{n}, with `Ṁ = C + Cᵀ`."),
         Method::GravityForces => "`G(q) = ∂V/∂q`, on the left-hand side.".to_owned(),
         Method::BiasForces => "`C(q,v)·v + G(q)`.".to_owned(),
+        Method::PassiveForces => "What dampers, friction and springs do, on the left-hand side.".to_owned(),
         Method::InverseDynamics => "`τ = M·a + C·v + G`.".to_owned(),
         Method::ForwardDynamics => "`a = M⁻¹·(τ − C·v − G)`.".to_owned(),
+        Method::InverseMassMatrix => format!("`M(q)⁻¹`: {n}×{n}."),
         Method::KineticEnergy => "`T = ½ vᵀ·M·v`, J.".to_owned(),
         Method::PotentialEnergy => "`V(q)`, J.".to_owned(),
+        Method::ElasticEnergy => "The energy of springs, J.".to_owned(),
         Method::Lagrangian => "`L = T − V`, J.".to_owned(),
         Method::EquationsOfMotion => "`M(q)`, `C(q,v)` and `G(q)` in one.".to_owned(),
         Method::InverseDynamicsDerivatives => "`∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`.".to_owned(),
@@ -187,6 +205,8 @@ fn headline(method: Method, n: usize) -> String {
             "The twist of the frame in its own axes for each joint's unit speed.".to_owned()
         }
         Method::WorldJacobian(_) => "The same in the world's axes.".to_owned(),
+        Method::Velocity(_) => "The twist of the frame in its own axes.".to_owned(),
+        Method::Acceleration(_) => "The rate of that twist.".to_owned(),
     }
 }
 
@@ -212,7 +232,7 @@ fn bindings(method: Method, context: &Context<'_>, body: &Body) -> String {
             let input = Input::Argument(argument, k);
             body.inputs.iter().find(|(known, _)| *known == input).map_or("_", |(_, name)| name.as_str())
         };
-        let components: Vec<&str> = (0..context.dof).map(component).collect();
+        let components: Vec<&str> = (0..context.inputs.size(argument)).map(component).collect();
         if components.iter().any(|&name| name != "_") {
             let _ =
                 writeln!(lines, "        let [[{}]] = {}.data.0;", shortened(&components), argument.name());

@@ -91,6 +91,10 @@ impl Scalar for Dual {
         let (sin, cos) = self.value.sin_cos();
         Self { value: cos, tangent: -sin * self.tangent }
     }
+    fn sqrt(self) -> Self {
+        let root = self.value.sqrt();
+        Self { value: root, tangent: self.tangent / (root + root) }
+    }
 }
 
 #[cfg(test)]

@@ -2,16 +2,19 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::kinematics::{link_poses, link_velocities};
+use super::passive;
 use super::six::Matrix6;
 use crate::model::Tree;
 use crate::spatial::{Pose, PseudoInertia, Scalar};
 
-/// `T = Σ ½ V_Bᵀ M_B V_B` over all links, J.
+/// `T = Σ ½ V_Bᵀ M_B V_B` over all links, and the rotors' own, J.
 pub fn kinetic_energy<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> S {
     let twice = (tree.links.iter().zip(link_velocities(tree, q, v)))
         .map(|(link, V_B)| V_B.dot(Matrix6::inertia(&link.inertia) * V_B))
         .fold(S::zero(), |sum, energy| sum + energy);
-    twice / S::from(2)
+    let rotors =
+        passive::one_dof(tree).fold(S::zero(), |sum, (link, k)| sum + passive::reflected(link) * v[k] * v[k]);
+    (twice + rotors) / S::from(2)
 }
 
 /// `V = −Σ g·(R_WB h + m p_WB)` over all links and the mass at rest, J; zero for mass at the world's origin.

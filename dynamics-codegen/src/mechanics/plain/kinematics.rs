@@ -8,26 +8,45 @@ use crate::model::{Frame, Link, Motion, Tree};
 use crate::spatial::{Matrix3, Pose, Scalar, Vector3};
 
 /// `X_PB(q)`: the pose of a link in its parent.
-pub(super) fn pose_in_parent<S: Scalar>(link: &Link<S>, q: S) -> Pose<S> {
+pub(super) fn pose_in_parent<S: Scalar>(link: &Link<S>, q: &[S]) -> Pose<S> {
+    let at = link.drive.q;
+    let coordinate = || link.drive.ratio * q[at] + link.drive.offset;
+    let turned = |at: usize| Pose::rotation(Matrix3::of_quaternion([q[at], q[at + 1], q[at + 2], q[at + 3]]));
     let X_JB = match link.motion {
-        Motion::Revolute => Pose::rotation(Matrix3::rotation_z(q.cos(), q.sin())),
-        Motion::Prismatic => Pose::translation(Vector3::unit_z().scale(q)),
+        Motion::Revolute => Pose::rotation(Matrix3::rotation_z(coordinate().cos(), coordinate().sin())),
+        Motion::Prismatic => Pose::translation(Vector3::unit_z().scale(coordinate())),
+        Motion::Ball => turned(at),
+        Motion::Free => Pose::translation(Vector3([q[at], q[at + 1], q[at + 2]])) * turned(at + 3),
     };
     link.placement * X_JB
 }
 
-/// `S_B`: the motion of a link against its parent at unit speed, in the link's frame.
-pub(super) fn motion_subspace<S: Scalar>(motion: Motion) -> Six<S> {
-    match motion {
-        Motion::Revolute => Six::new(Vector3::zero(), Vector3::unit_z()),
-        Motion::Prismatic => Six::new(Vector3::unit_z(), Vector3::zero()),
-    }
+/// `S_B` by columns: for each speed of the joint, which of the robot's it is, and the motion of the link against its
+/// parent, in the link's frame, while that one is one.
+pub(super) fn motion_subspace<S: Scalar>(link: &Link<S>) -> Vec<(usize, Six<S>)> {
+    let unit = |k: usize| {
+        let mut unit = Six::zero();
+        unit.0[k] = link.drive.ratio;
+        unit
+    };
+    let components = match link.motion {
+        Motion::Revolute => 5..6,
+        Motion::Prismatic => 2..3,
+        Motion::Ball => 3..6,
+        Motion::Free => 0..6,
+    };
+    components.enumerate().map(|(k, component)| (link.drive.v + k, unit(component))).collect()
+}
+
+/// `S_B v`: the motion of a link against its parent at the speeds `v`; of accelerations, what they add.
+pub(super) fn joint_motion<S: Scalar>(link: &Link<S>, v: &[S]) -> Six<S> {
+    motion_subspace(link).into_iter().fold(Six::zero(), |sum, (k, S_B)| sum + S_B.scale(v[k]))
 }
 
 /// `X_WB` of every link.
 pub fn link_poses<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Pose<S>> {
-    let mut poses: Vec<Pose<S>> = Vec::with_capacity(tree.dof());
-    for (link, &q) in tree.links.iter().zip(q) {
+    let mut poses: Vec<Pose<S>> = Vec::with_capacity(tree.links.len());
+    for link in &tree.links {
         let X_WP = link.parent.map_or_else(Pose::identity, |parent| poses[parent]);
         poses.push(X_WP * pose_in_parent(link, q));
     }
@@ -36,11 +55,11 @@ pub fn link_poses<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Pose<S>> {
 
 /// `V_B` of every link, measured in the world and written in the link's frame.
 pub fn link_velocities<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> Vec<Six<S>> {
-    let mut velocities: Vec<Six<S>> = Vec::with_capacity(tree.dof());
-    for (link, (&q, &v)) in tree.links.iter().zip(q.iter().zip(v)) {
+    let mut velocities: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
+    for link in &tree.links {
         let V_P = link.parent.map_or_else(Six::zero, |parent| velocities[parent]);
         let X_BP = pose_in_parent(link, q).inverse();
-        velocities.push(Matrix6::adjoint(X_BP) * V_P + motion_subspace(link.motion).scale(v));
+        velocities.push(Matrix6::adjoint(X_BP) * V_P + joint_motion(link, v));
     }
     velocities
 }
@@ -65,7 +84,8 @@ pub fn world_jacobian<S: Scalar>(tree: &Tree<S>, frame: &Frame<S>, q: &[S]) -> V
     rows_of(&jacobian_columns(tree, &poses, frame.link, Pose::translation(-p_WF)))
 }
 
-/// The columns `Ad(X_EW X_WB) S_B` of all joints between `carrier` and the world, and zero for the others.
+/// The columns `Ad(X_EW X_WB) S_B` of all joints between `carrier` and the world, added where joints share a speed,
+/// and zero for the others.
 pub(super) fn jacobian_columns<S: Scalar>(
     tree: &Tree<S>,
     poses: &[Pose<S>],
@@ -75,7 +95,9 @@ pub(super) fn jacobian_columns<S: Scalar>(
     let mut columns = vec![Six::zero(); tree.dof()];
     let mut link = carrier;
     while let Some(k) = link {
-        columns[k] = Matrix6::adjoint(X_EW * poses[k]) * motion_subspace(tree.links[k].motion);
+        for (speed, S_B) in motion_subspace(&tree.links[k]) {
+            columns[speed] = columns[speed] + Matrix6::adjoint(X_EW * poses[k]) * S_B;
+        }
         link = tree.links[k].parent;
     }
     columns

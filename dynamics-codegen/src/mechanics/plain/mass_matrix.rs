@@ -5,11 +5,12 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::kinematics::{jacobian_columns, link_poses};
+use super::passive;
 use super::six::Matrix6;
 use crate::model::Tree;
 use crate::spatial::Scalar;
 
-/// `M(q) = Σ J_Bᵀ M_B J_B` over all links, n×n, both halves.
+/// `M(q) = Σ J_Bᵀ M_B J_B` over all links, and the rotors, n×n, both halves.
 pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
     let poses = link_poses(tree, q);
     let mut M = vec![vec![S::zero(); tree.dof()]; tree.dof()];
@@ -22,6 +23,9 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
                 M[i][j] = M[i][j] + other.dot(momentum);
             }
         }
+    }
+    for (link, k) in passive::one_dof(tree) {
+        M[k][k] = M[k][k] + passive::reflected(link);
     }
     M
 }

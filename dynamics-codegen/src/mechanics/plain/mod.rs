@@ -14,12 +14,13 @@ mod energy;
 mod kinematics;
 mod mass_matrix;
 mod oracle;
+pub mod passive;
 mod rnea;
 mod six;
 #[cfg(test)]
 mod tests;
 
-pub use coriolis::coriolis_matrix;
+pub use coriolis::{bracket, coriolis_matrix};
 pub use dense::{Cholesky, Rows};
 pub use dual::Dual;
 pub use energy::{kinetic_energy, lagrangian, potential_energy};

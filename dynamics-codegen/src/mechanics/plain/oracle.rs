@@ -9,6 +9,7 @@
 use super::dense::{Cholesky, Rows, identity, largest, magnitudes, product, times, transpose};
 use super::{
     Dual, bias_forces, coriolis_matrix, energy, gravity_forces, inverse_dynamics, kinematics, mass_matrix,
+    passive,
 };
 use crate::model::Tree;
 use crate::spatial::Pose;
@@ -53,7 +54,7 @@ impl<'t> Oracle<'t> {
         mass_matrix(self.tree, q)
     }
 
-    /// `C(q,v)`, n×n, of Christoffel symbols.
+    /// `C(q,v)`, n×n, of Levi-Civita.
     pub fn coriolis_matrix(&self, q: &[f64], v: &[f64]) -> Rows {
         coriolis_matrix(self.tree, q, v)
     }
@@ -78,6 +79,16 @@ impl<'t> Oracle<'t> {
         let h = self.bias_forces(q, v);
         let free: Vec<f64> = tau.iter().zip(&h).map(|(tau, h)| tau - h).collect();
         Some(Cholesky::of(&self.mass_matrix(q))?.solve(&free))
+    }
+
+    /// The forces of dampers, friction and springs, n.
+    pub fn passive_forces(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        passive::forces(self.tree, q, v)
+    }
+
+    /// The energy of springs, J.
+    pub fn elastic_energy(&self, q: &[f64]) -> f64 {
+        passive::elastic_energy(self.tree, q)
     }
 
     /// `T`, J.
@@ -110,7 +121,24 @@ impl<'t> Oracle<'t> {
         kinematics::world_jacobian(self.tree, &self.tree.frames[frame], q)
     }
 
-    /// `∂τ/∂q`, `∂τ/∂v`, `∂τ/∂a` of inverse dynamics.
+    /// The twist of a frame in its own axes, linear first.
+    pub fn velocity(&self, frame: usize, q: &[f64], v: &[f64]) -> Vec<f64> {
+        times(&self.body_jacobian(frame, q), v)
+    }
+
+    /// The rate of a frame's twist in its own axes, `J·a + J̇·v`, linear first: J as it changes on the way.
+    pub fn acceleration(&self, frame: usize, q: &[f64], v: &[f64], a: &[f64]) -> Vec<f64> {
+        let tree = self.tree.map(Dual::constant);
+        let moving = Dual::moving(q, &self.tree.configuration_rate(q, v));
+        let J = kinematics::body_jacobian(&tree, &tree.frames[frame], &moving);
+        let twist_rate = |row: &Vec<Dual>| {
+            let parts = row.iter().zip(v.iter().zip(a));
+            parts.map(|(j, (v, a))| j.value * a + j.tangent * v).sum()
+        };
+        J.iter().map(twist_rate).collect()
+    }
+
+    /// `∂τ/∂q` (in the tangent space), `∂τ/∂v`, `∂τ/∂a` of inverse dynamics.
     pub fn inverse_dynamics_derivatives(
         &self,
         q: &[f64],
@@ -118,14 +146,15 @@ impl<'t> Oracle<'t> {
         a: &[f64],
     ) -> InverseDynamicsDerivatives {
         let tree = self.tree.map(Dual::constant);
-        let rest = vec![0.0; q.len()];
+        let (resting_q, rest) = (vec![0.0; q.len()], vec![0.0; v.len()]);
         let along = |dq: &[f64], dv: &[f64]| -> Vec<f64> {
             let (q, v) = (Dual::moving(q, dq), Dual::moving(v, dv));
             inverse_dynamics(&tree, &q, &v, &Dual::resting(a)).into_iter().map(|tau| tau.tangent).collect()
         };
-        let units = identity(q.len());
-        let by_q: Rows = units.iter().map(|unit| along(unit, &rest)).collect();
-        let by_v: Rows = units.iter().map(|unit| along(&rest, unit)).collect();
+        let units = identity(v.len());
+        let by_q: Rows =
+            units.iter().map(|unit| along(&self.tree.configuration_rate(q, unit), &rest)).collect();
+        let by_v: Rows = units.iter().map(|unit| along(&resting_q, unit)).collect();
         InverseDynamicsDerivatives {
             dtau_dq: transpose(&by_q),
             dtau_dv: transpose(&by_v),
@@ -147,7 +176,7 @@ impl<'t> Oracle<'t> {
         Some(ForwardDynamicsDerivatives {
             da_dq: factor.solve_columns(&negative(&dtau_dq)),
             da_dv: factor.solve_columns(&negative(&dtau_dv)),
-            da_dtau: factor.solve_columns(&identity(q.len())),
+            da_dtau: factor.solve_columns(&identity(v.len())),
         })
     }
 
@@ -165,6 +194,14 @@ impl<'t> Oracle<'t> {
         let scale: Vec<f64> =
             inertial.iter().zip(&h).zip(tau).map(|((ma, h), tau)| ma + h.abs() + tau.abs()).collect();
         relative(largest(&missed), largest(&scale))
+    }
+
+    /// How far a claimed `M⁻¹` misses `M·M⁻¹ = 1`: over `‖|M||M⁻¹|‖`, in the largest entry.
+    pub fn inverse_mass_matrix_residual(&self, q: &[f64], claimed: &Rows) -> f64 {
+        let M = self.mass_matrix(q);
+        let missed = sum(&product(&M, claimed), &negative(&identity(M.len())));
+        let scale = product(&magnitudes(&M), &magnitudes(claimed));
+        relative(largest(missed.iter().flatten()), largest(scale.iter().flatten()))
     }
 
     /// How far claimed derivatives of forward dynamics miss `M·∂a/∂x = −∂τ/∂x` and `M·∂a/∂τ = 1`: the largest of
@@ -188,7 +225,7 @@ impl<'t> Oracle<'t> {
         largest(&[
             of(&claimed.da_dq, &negative(&dtau_dq)),
             of(&claimed.da_dv, &negative(&dtau_dv)),
-            of(&claimed.da_dtau, &identity(q.len())),
+            of(&claimed.da_dtau, &identity(v.len())),
         ])
     }
 }

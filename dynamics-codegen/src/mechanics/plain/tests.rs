@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::Oracle;
-use crate::model::{Link, Motion, Tree};
+use crate::model::{Drive, Link, Motion, Passive, Tree};
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Symmetric3, Vector3};
 
 /// Some ten operations on numbers up to 10², rounded by 1e-16 each.
@@ -22,6 +22,8 @@ fn chain(links: Vec<(Motion, Pose<f64>, PseudoInertia<f64>)>, gravity: Vector3<f
     let link = |(k, (motion, placement, inertia)): (usize, _)| Link {
         parent: k.checked_sub(1),
         motion,
+        drive: Drive::own(k, k),
+        passive: Passive::none(),
         placement,
         inertia,
     };

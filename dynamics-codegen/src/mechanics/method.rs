@@ -1,0 +1,255 @@
+//! What is asked of a robot: methods, their arguments, and the blocks of numbers that they return.
+
+use crate::model::Model;
+use crate::symbolic::{Expr, Graph, SymbolId};
+
+/// What a generated method computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Method {
+    /// `M(q)`
+    MassMatrix,
+    /// `C(q,v)`
+    CoriolisMatrix,
+    /// `G(q)`
+    GravityForces,
+    /// `C·v + G` and passive forces
+    BiasForces,
+    /// What dampers, friction and springs do.
+    PassiveForces,
+    /// `τ`
+    InverseDynamics,
+    /// `a`
+    ForwardDynamics,
+    /// `M⁻¹`
+    InverseMassMatrix,
+    /// `T`
+    KineticEnergy,
+    /// `V`
+    PotentialEnergy,
+    /// Of springs.
+    ElasticEnergy,
+    /// `T − V`
+    Lagrangian,
+    /// `M`, `C` and `G`
+    EquationsOfMotion,
+    /// `∂τ/∂q`, `∂τ/∂v`, `∂τ/∂a`
+    InverseDynamicsDerivatives,
+    /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ`
+    ForwardDynamicsDerivatives,
+    /// The pose of a frame.
+    Pose(usize),
+    /// The body Jacobian of a frame.
+    Jacobian(usize),
+    /// The Jacobian of a frame in world axes.
+    WorldJacobian(usize),
+    /// The twist of a frame in its own axes.
+    Velocity(usize),
+    /// The rate of that twist.
+    Acceleration(usize),
+}
+
+impl Method {
+    /// The methods that every robot has.
+    pub const OF_ROBOT: [Method; 12] = [
+        Method::MassMatrix,
+        Method::CoriolisMatrix,
+        Method::GravityForces,
+        Method::BiasForces,
+        Method::InverseDynamics,
+        Method::ForwardDynamics,
+        Method::KineticEnergy,
+        Method::PotentialEnergy,
+        Method::Lagrangian,
+        Method::EquationsOfMotion,
+        Method::InverseDynamicsDerivatives,
+        Method::ForwardDynamicsDerivatives,
+    ];
+
+    /// The methods of the trait of derivatives.
+    pub const OF_DERIVATIVES: [Method; 2] =
+        [Method::InverseDynamicsDerivatives, Method::ForwardDynamicsDerivatives];
+
+    /// The method's name in the trait.
+    pub fn name(self) -> &'static str {
+        match self {
+            Method::MassMatrix => "mass_matrix",
+            Method::CoriolisMatrix => "coriolis_matrix",
+            Method::GravityForces => "gravity_forces",
+            Method::BiasForces => "bias_forces",
+            Method::PassiveForces => "passive_forces",
+            Method::InverseDynamics => "inverse_dynamics",
+            Method::ForwardDynamics => "forward_dynamics",
+            Method::InverseMassMatrix => "inverse_mass_matrix",
+            Method::KineticEnergy => "kinetic_energy",
+            Method::PotentialEnergy => "potential_energy",
+            Method::ElasticEnergy => "elastic_energy",
+            Method::Lagrangian => "lagrangian",
+            Method::EquationsOfMotion => "equations_of_motion",
+            Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
+            Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
+            Method::Pose(_) => "pose",
+            Method::Jacobian(_) => "jacobian",
+            Method::WorldJacobian(_) => "world_jacobian",
+            Method::Velocity(_) => "velocity",
+            Method::Acceleration(_) => "acceleration",
+        }
+    }
+
+    /// The frame that the method belongs to.
+    pub fn frame(self) -> Option<usize> {
+        match self {
+            Method::Pose(frame)
+            | Method::Jacobian(frame)
+            | Method::WorldJacobian(frame)
+            | Method::Velocity(frame)
+            | Method::Acceleration(frame) => Some(frame),
+            _ => None,
+        }
+    }
+
+    /// The arguments of the method.
+    pub fn arguments(self) -> &'static [Argument] {
+        use Argument::{A, Q, Tau, V};
+        match self {
+            Method::MassMatrix
+            | Method::InverseMassMatrix
+            | Method::GravityForces
+            | Method::PotentialEnergy
+            | Method::ElasticEnergy
+            | Method::Pose(_)
+            | Method::Jacobian(_)
+            | Method::WorldJacobian(_) => &[Q],
+            Method::CoriolisMatrix
+            | Method::BiasForces
+            | Method::PassiveForces
+            | Method::KineticEnergy
+            | Method::Lagrangian
+            | Method::EquationsOfMotion
+            | Method::Velocity(_) => &[Q, V],
+            Method::InverseDynamics | Method::InverseDynamicsDerivatives | Method::Acceleration(_) => {
+                &[Q, V, A]
+            }
+            Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+        }
+    }
+}
+
+/// A vector that a method is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Argument {
+    /// Coordinates.
+    Q,
+    /// Speeds.
+    V,
+    /// Accelerations.
+    A,
+    /// Joint forces.
+    Tau,
+}
+
+impl Argument {
+    /// All of them, in order.
+    pub const ALL: [Argument; 4] = [Argument::Q, Argument::V, Argument::A, Argument::Tau];
+
+    /// The argument's name.
+    pub fn name(self) -> &'static str {
+        match self {
+            Argument::Q => "q",
+            Argument::V => "v",
+            Argument::A => "a",
+            Argument::Tau => "tau",
+        }
+    }
+}
+
+/// The inputs of the equations: parameters first, then coordinates, speeds, accelerations, forces.
+#[derive(Clone, Copy, Debug)]
+pub struct Inputs {
+    /// How many parameters there are.
+    pub parameters: usize,
+    /// How many coordinates, NQ.
+    pub coordinates: usize,
+    /// How many degrees of freedom, NV.
+    pub dof: usize,
+}
+
+/// What a symbol stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Input {
+    /// The field with this index among the model's parameters.
+    Parameter(usize),
+    /// A component of an argument.
+    Argument(Argument, usize),
+}
+
+impl Inputs {
+    /// Those of a robot.
+    pub fn of(model: &Model<'_>) -> Self {
+        let (coordinates, dof) = (model.tree.coordinates(), model.tree.dof());
+        Self { parameters: model.parameters.len(), coordinates, dof }
+    }
+
+    /// The meaning of a symbol.
+    pub fn meaning(self, symbol: SymbolId) -> Input {
+        let index = symbol.0 as usize;
+        let Some(component) = index.checked_sub(self.parameters) else { return Input::Parameter(index) };
+        match component.checked_sub(self.coordinates) {
+            None => Input::Argument(Argument::Q, component),
+            Some(rest) => Input::Argument(Argument::ALL[1 + rest / self.dof], rest % self.dof),
+        }
+    }
+
+    /// How many components an argument has.
+    pub fn size(self, argument: Argument) -> usize {
+        match argument {
+            Argument::Q => self.coordinates,
+            Argument::V | Argument::A | Argument::Tau => self.dof,
+        }
+    }
+
+    /// The symbol of a component of an argument.
+    pub fn symbol(self, argument: Argument, k: usize) -> SymbolId {
+        let before = match argument {
+            Argument::Q => 0,
+            _ => self.coordinates + (argument as usize - 1) * self.dof,
+        };
+        let index = self.parameters + before + k;
+        SymbolId(u32::try_from(index).expect("fewer than 2^32 inputs"))
+    }
+
+    /// The components of an argument.
+    pub fn vector<'g>(self, graph: &'g Graph, argument: Argument) -> Vec<Expr<'g>> {
+        (0..self.size(argument)).map(|k| graph.variable(self.symbol(argument, k))).collect()
+    }
+}
+
+/// A block of numbers that a method returns.
+#[derive(Clone, Debug)]
+pub struct Block<'g> {
+    /// A letter for its entries, and the field that takes it where a method returns several.
+    pub name: &'static str,
+    /// The shape.
+    pub shape: Shape,
+    /// The entries, by rows.
+    pub entries: Vec<Expr<'g>>,
+}
+
+/// The shape of a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shape {
+    /// A number.
+    Scalar,
+    /// A column.
+    Vector(usize),
+    /// Rows and columns.
+    Matrix(usize, usize),
+}
+
+/// One method's result.
+#[derive(Clone, Debug)]
+pub struct Equation<'g> {
+    /// Which method.
+    pub method: Method,
+    /// What it returns.
+    pub blocks: Vec<Block<'g>>,
+}
