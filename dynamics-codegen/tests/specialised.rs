@@ -1,9 +1,10 @@
 //! The specialised recursions against the oracle: whatever the joints are, every finished program computes what the
 //! textbook says of the same tree.
 
-use dynamics_codegen::mechanics::equations::Method;
-use dynamics_codegen::model::{FieldType, Model};
+use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
+use dynamics_codegen::model::{FieldType, LinkInfo, Model, Tree};
 use dynamics_codegen::passes::{compile, disagreements};
+use dynamics_codegen::spatial::Random;
 use dynamics_codegen::symbolic::{Expr, Graph, Number};
 
 mod random;
@@ -25,8 +26,34 @@ fn all_methods(frames: usize) -> Vec<Method> {
             Method::Acceleration(k),
         ]
     };
-    let more = [Method::PassiveForces, Method::InverseMassMatrix, Method::ElasticEnergy];
+    let more = [
+        Method::PassiveForces,
+        Method::InverseMassMatrix,
+        Method::ElasticEnergy,
+        Method::CenterOfMass,
+        Method::CenterOfMassJacobian,
+        Method::CentroidalMomentum,
+        Method::CentroidalMomentumMatrix,
+        Method::TotalMass,
+        Method::Regressor,
+        Method::InertialParameters,
+        Method::BaseRegressor,
+        Method::BaseParameters,
+    ];
     Method::OF_ROBOT.into_iter().chain(more).chain((0..frames).flat_map(of_frame)).collect()
+}
+
+fn model_of<'g>(tree: &Tree<f64>, seed: u64) -> Model<'g> {
+    Model {
+        name: format!("Random{seed}"),
+        field_type: FieldType::Unused,
+        parameters: vec![],
+        joints: vec![],
+        links: (0..tree.links.len())
+            .map(|link| LinkInfo { joint: format!("joint{link}"), body: Some(link) })
+            .collect(),
+        tree: tree.map(constant),
+    }
 }
 
 #[test]
@@ -34,16 +61,77 @@ fn programs_compute_what_the_oracle_says_of_random_trees() {
     for seed in 0..48 {
         let tree = state(1000 + seed, 1 + seed as usize % 6, SHAPES[seed as usize % 3]).tree;
         let graph = Graph::new();
-        let model = Model {
-            name: format!("Random{seed}"),
-            field_type: FieldType::Unused,
-            parameters: vec![],
-            joints: vec![],
-            tree: tree.map(constant),
-        };
+        let model = model_of(&tree, seed);
         let compiled = compile(&model, &graph, &all_methods(tree.frames.len()));
         let found = disagreements(&model, &compiled);
         let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
         assert!(found.is_empty(), "tree {seed} of {motions:?}: {found:?}");
+    }
+}
+
+/// The rank of a matrix by rows: Gram–Schmidt with the largest column first. The smallest singular values of these
+/// random ones are far from the rounding of their largest.
+fn rank(rows: &[Vec<f64>]) -> usize {
+    let width = rows[0].len();
+    let mut columns: Vec<Vec<f64>> = (0..width).map(|k| rows.iter().map(|row| row[k]).collect()).collect();
+    let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    columns.iter_mut().for_each(|column| {
+        let size = length(column).max(1e-300);
+        column.iter_mut().for_each(|x| *x /= size);
+    });
+    for found in 0..width {
+        let (largest, size) = columns
+            .iter()
+            .map(|column| length(column))
+            .enumerate()
+            .fold((0, 0.0), |best, (k, size)| if size > best.1 { (k, size) } else { best });
+        if size < 1e-9 {
+            return found;
+        }
+        let pivot: Vec<f64> = columns[largest].iter().map(|x| x / size).collect();
+        for column in &mut columns {
+            // Twice, for what rounding leaves the first time.
+            for _ in 0..2 {
+                let along: f64 = column.iter().zip(&pivot).map(|(x, y)| x * y).sum();
+                column.iter_mut().zip(&pivot).for_each(|(x, y)| *x -= along * y);
+            }
+        }
+    }
+    width
+}
+
+/// No base parameter is a combination of others, and no force that the regressor explains is lost.
+#[test]
+fn base_parameters_are_all_that_can_be_told_apart() {
+    for seed in 0..18 {
+        let tree = state(2000 + seed, 1 + seed as usize % 5, SHAPES[seed as usize % 3]).tree;
+        let graph = Graph::new();
+        let model = model_of(&tree, seed);
+        let compiled = compile(&model, &graph, &[Method::Regressor, Method::BaseRegressor]);
+        let nq = tree.coordinates();
+        let (wide, narrow) = (compiled.parameter_names.len(), compiled.base_parameter_names.len());
+        let (mut all, mut base) = (vec![], vec![]);
+        for sample in 0..4 + wide {
+            let mut random = Random(1000 * sample as u64);
+            let numbers: Vec<f64> = (0..100).map(|_| random.next()).collect();
+            let number = |k: usize| numbers[k];
+            let mut q: Vec<f64> = (0..nq).map(|k| 3.0 * number(k)).collect();
+            tree.normalise(&mut q);
+            let input = |input: Input| match input {
+                Input::Argument(Argument::Q, k) => q[k],
+                Input::Argument(Argument::V, k) => 2.0 * number(k + 30),
+                Input::Argument(_, k) => 5.0 * number(k + 60),
+                Input::Parameter(_) => unreachable!("every number is known"),
+            };
+            let rows = |method, width: usize| -> Vec<Vec<f64>> {
+                let program = compiled.program(method).expect("small robots are straight lines");
+                program.evaluate(input, &[]).chunks(width).map(<[f64]>::to_vec).collect()
+            };
+            all.extend(rows(Method::Regressor, wide));
+            base.extend(rows(Method::BaseRegressor, narrow));
+        }
+        let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
+        let names = &compiled.base_parameter_names;
+        assert_eq!((rank(&base), rank(&all)), (narrow, narrow), "tree {seed} of {motions:?}: {names:?}");
     }
 }

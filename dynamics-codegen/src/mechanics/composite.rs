@@ -260,7 +260,10 @@ fn turned_wrench<S: Scalar>(wrench: Wrench<S>, twist: Twist<S>) -> Wrench<S> {
 }
 
 /// The moments of all that hangs on each joint, in the link's frame.
-fn composite_inertias<S: Scalar>(tree: &NormalTree<S>, joints: &[PlacedJoint<S>]) -> Vec<PseudoInertia<S>> {
+pub fn composite_inertias<S: Scalar>(
+    tree: &NormalTree<S>,
+    joints: &[PlacedJoint<S>],
+) -> Vec<PseudoInertia<S>> {
     let mut bodies: Vec<PseudoInertia<S>> = tree.links.iter().map(|link| link.inertia).collect();
     for k in (0..tree.links.len()).rev() {
         if let Some(parent) = tree.links[k].parent {

@@ -1,6 +1,8 @@
 //! The equations of one robot: every output as expressions of coordinates, speeds and parameters.
 
 use super::aba;
+use super::base_regressor::{Symbols, base_columns};
+use super::centroidal;
 use super::composite::{self, Square};
 use super::coupling::{Coupling, elimination_parents};
 use super::energy;
@@ -10,6 +12,7 @@ use super::gauge::regauge;
 pub use super::method::{Argument, Block, Equation, Input, Inputs, Method, Shape};
 use super::normal::NormalTree;
 use super::passive;
+use super::regressor::{Regressed, RegressorColumn};
 use super::regroup::regroup;
 use super::rnea;
 use super::unit;
@@ -44,6 +47,11 @@ pub struct Derivation<'g> {
     a: Vec<Expr<'g>>,
     rest: Vec<Expr<'g>>,
     tau: Vec<Expr<'g>>,
+    /// For each link the name of its joint, and the frame of its body.
+    joints: Vec<String>,
+    bodies: Vec<Option<usize>>,
+    /// The coordinates that begin unit quaternions.
+    quaternions: Vec<usize>,
 }
 
 impl<'g> Derivation<'g> {
@@ -63,6 +71,9 @@ impl<'g> Derivation<'g> {
             tau: inputs.vector(graph, Argument::Tau),
             coupling,
             kinematic,
+            joints: model.links.iter().map(|link| link.joint.clone()).collect(),
+            bodies: model.links.iter().map(|link| link.body).collect(),
+            quaternions: model.tree.quaternions().collect(),
         }
     }
 
@@ -187,6 +198,23 @@ impl<'g> Derivation<'g> {
                 self.derivative_blocks(dtau_dq, dtau_dv)
             }
             Method::ForwardDynamicsDerivatives => self.forward_dynamics_derivatives(),
+            Method::CenterOfMass => {
+                vec![vector("p", centroidal::center_of_mass(&self.kinematic, q).0.to_vec())]
+            }
+            Method::CenterOfMassJacobian => {
+                vec![self.wide("j", centroidal::center_of_mass_jacobian(&self.kinematic, q))]
+            }
+            Method::CentroidalMomentum => {
+                vec![vector("h", centroidal::centroidal_momentum(&self.kinematic, q, v).to_vec())]
+            }
+            Method::CentroidalMomentumMatrix => {
+                vec![self.wide("a", centroidal::centroidal_momentum_matrix(&self.kinematic, q))]
+            }
+            Method::TotalMass => vec![scalar(centroidal::total_mass(&self.kinematic))],
+            Method::Regressor => vec![beside("y", &self.regressor())],
+            Method::InertialParameters => vec![values(&self.regressor())],
+            Method::BaseRegressor => vec![beside("y", &self.base_regressor())],
+            Method::BaseParameters => vec![values(&self.base_regressor())],
             Method::Pose(frame) => self.pose(frame),
             Method::Jacobian(frame) => vec![self.jacobian(frame, Axes::Body)],
             Method::WorldJacobian(frame) => vec![self.jacobian(frame, Axes::World)],
@@ -287,8 +315,36 @@ impl<'g> Derivation<'g> {
 
     fn jacobian(&self, frame: usize, axes: Axes) -> Block<'g> {
         let rows = frames::jacobian(&self.kinematic, &self.kinematic.frames[frame], &self.q, axes);
-        let rows = self.coupling.gather_columns(rows);
-        Block { name: "j", shape: Shape::Matrix(6, self.inputs.dof), entries: rows.concat() }
+        self.wide("j", rows)
+    }
+
+    /// A matrix of the columns as one of the robot's speeds.
+    fn wide(&self, name: &'static str, rows: Square<Expr<'g>>) -> Block<'g> {
+        let shape = Shape::Matrix(rows.len(), self.inputs.dof);
+        Block { name, shape, entries: self.coupling.gather_columns(rows).concat() }
+    }
+
+    /// The columns of the regressor.
+    pub fn regressor(&self) -> Vec<RegressorColumn<Expr<'g>>> {
+        self.regressed().columns()
+    }
+
+    /// The columns of the regressor of base parameters.
+    pub fn base_regressor(&self) -> Vec<RegressorColumn<Expr<'g>>> {
+        let is_body: Vec<bool> = self.bodies.iter().map(Option::is_some).collect();
+        let regressed = self.regressed();
+        let symbols = Symbols { graph: self.graph, inputs: self.inputs, quaternions: &self.quaternions };
+        base_columns(&regressed, &is_body, &symbols)
+    }
+
+    fn regressed(&self) -> Regressed<'_, Expr<'g>> {
+        Regressed {
+            tree: &self.kinematic,
+            bodies: &self.bodies,
+            joints: &self.joints,
+            coupling: &self.coupling,
+            state: [&self.q, &self.v, &self.a],
+        }
     }
 
     fn frame_motion(&self, frame: usize) -> frames::FrameMotion<Expr<'g>> {
@@ -313,6 +369,17 @@ fn add_to_diagonal<'g>(m: &mut Square<Expr<'g>>, diagonal: Vec<Expr<'g>>) {
     for (k, value) in diagonal.into_iter().enumerate() {
         m[k][k] = m[k][k] + value;
     }
+}
+
+/// The matrix whose columns are the forces.
+fn beside<'g>(name: &'static str, columns: &[RegressorColumn<Expr<'g>>]) -> Block<'g> {
+    let height = columns.first().map_or(0, |column| column.forces.len());
+    let row = |k: usize| columns.iter().map(move |column| column.forces[k]);
+    Block { name, shape: Shape::Matrix(height, columns.len()), entries: (0..height).flat_map(row).collect() }
+}
+
+fn values<'g>(columns: &[RegressorColumn<Expr<'g>>]) -> Block<'g> {
+    vector("pi", columns.iter().map(|column| column.value).collect())
 }
 
 fn scalar(value: Expr<'_>) -> Block<'_> {

@@ -17,11 +17,24 @@ pub fn pose<S: Scalar>(tree: &NormalTree<S>, frame: &NormalFrame<S>, q: &[S]) ->
 fn link_pose<S: Scalar>(tree: &NormalTree<S>, joints: &[PlacedJoint<S>], link: usize) -> Pose<S> {
     let mut path: Vec<usize> = tree.path_to_base(link).collect();
     path.reverse();
-    path.into_iter().fold(tree.base, |parent, k| Pose {
-        translation: parent.transform_point(joints[k].position),
+    path.into_iter().fold(tree.base, |parent, k| beyond(parent, &joints[k]))
+}
+
+/// The poses of all links in the world.
+pub fn link_poses<S: Scalar>(tree: &NormalTree<S>, joints: &[PlacedJoint<S>]) -> Vec<Pose<S>> {
+    let mut poses: Vec<Pose<S>> = Vec::with_capacity(joints.len());
+    for (link, joint) in tree.links.iter().zip(joints) {
+        poses.push(beyond(link.parent.map_or(tree.base, |parent| poses[parent]), joint));
+    }
+    poses
+}
+
+fn beyond<S: Scalar>(parent: Pose<S>, joint: &PlacedJoint<S>) -> Pose<S> {
+    Pose {
+        translation: parent.transform_point(joint.position),
         // R·R_joint by rows: each row of R is a vector in the parent's axes.
-        rotation: Matrix3(parent.rotation.0.map(|row| joints[k].down(Vector3(row)).0)),
-    })
+        rotation: Matrix3(parent.rotation.0.map(|row| joint.down(Vector3(row)).0)),
+    }
 }
 
 /// Whose axes a Jacobian is written in; its point is the origin of the frame.

@@ -36,6 +36,24 @@ pub enum Method {
     InverseDynamicsDerivatives,
     /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ`
     ForwardDynamicsDerivatives,
+    /// The centre of mass.
+    CenterOfMass,
+    /// Its Jacobian.
+    CenterOfMassJacobian,
+    /// The momentum about it.
+    CentroidalMomentum,
+    /// The matrix that takes speeds to it.
+    CentroidalMomentumMatrix,
+    /// The mass of all that moves.
+    TotalMass,
+    /// `Y` of `τ = Y·π`
+    Regressor,
+    /// `π`
+    InertialParameters,
+    /// `Y` of the parameters that can be told apart.
+    BaseRegressor,
+    /// These parameters.
+    BaseParameters,
     /// The pose of a frame.
     Pose(usize),
     /// The body Jacobian of a frame.
@@ -87,6 +105,15 @@ impl Method {
             Method::EquationsOfMotion => "equations_of_motion",
             Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
             Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
+            Method::CenterOfMass => "center_of_mass",
+            Method::CenterOfMassJacobian => "center_of_mass_jacobian",
+            Method::CentroidalMomentum => "centroidal_momentum",
+            Method::CentroidalMomentumMatrix => "centroidal_momentum_matrix",
+            Method::TotalMass => "total_mass",
+            Method::Regressor => "regressor",
+            Method::InertialParameters => "inertial_parameters",
+            Method::BaseRegressor => "base_regressor",
+            Method::BaseParameters => "base_parameters",
             Method::Pose(_) => "pose",
             Method::Jacobian(_) => "jacobian",
             Method::WorldJacobian(_) => "world_jacobian",
@@ -116,19 +143,26 @@ impl Method {
             | Method::GravityForces
             | Method::PotentialEnergy
             | Method::ElasticEnergy
+            | Method::CenterOfMass
+            | Method::CenterOfMassJacobian
+            | Method::CentroidalMomentumMatrix
             | Method::Pose(_)
             | Method::Jacobian(_)
             | Method::WorldJacobian(_) => &[Q],
+            Method::TotalMass | Method::InertialParameters | Method::BaseParameters => &[],
             Method::CoriolisMatrix
             | Method::BiasForces
             | Method::PassiveForces
             | Method::KineticEnergy
             | Method::Lagrangian
             | Method::EquationsOfMotion
+            | Method::CentroidalMomentum
             | Method::Velocity(_) => &[Q, V],
-            Method::InverseDynamics | Method::InverseDynamicsDerivatives | Method::Acceleration(_) => {
-                &[Q, V, A]
-            }
+            Method::InverseDynamics
+            | Method::InverseDynamicsDerivatives
+            | Method::Regressor
+            | Method::BaseRegressor
+            | Method::Acceleration(_) => &[Q, V, A],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
         }
     }

@@ -1,6 +1,8 @@
 //! From a tree to its equations. One algorithm, one file.
 
 pub mod aba;
+pub mod base_regressor;
+pub mod centroidal;
 pub mod columns;
 pub mod composite;
 pub mod coupling;
@@ -15,6 +17,7 @@ pub mod motion;
 pub mod normal;
 pub mod passive;
 pub mod plain;
+pub mod regressor;
 pub mod regroup;
 pub mod rnea;
 pub mod rotation;

@@ -11,7 +11,7 @@
 use super::columns::Twist;
 use super::normal::{NormalTree, PlacedJoint};
 use crate::model::Motion;
-use crate::spatial::{Matrix3, Scalar, Vector3};
+use crate::spatial::{Matrix3, Pose, Scalar, Vector3};
 
 /// The acceleration of a link.
 #[derive(Clone, Copy, Debug)]
@@ -29,6 +29,12 @@ pub struct LinkAcceleration<S> {
 impl<S: Scalar> LinkAcceleration<S> {
     fn of_base(gravity: Vector3<S>) -> Self {
         Self { w: Vector3::zero(), wd: Vector3::zero(), U: Matrix3::zero(), a: -gravity }
+    }
+
+    /// That of a frame at rest in the link.
+    pub fn at(&self, frame: Pose<S>) -> Self {
+        let (R, origin) = (frame.rotation.transpose(), self.a + self.U * frame.translation);
+        Self::from_rates(R * self.w, R * self.wd, R * origin)
     }
 
     /// Fills U from the velocity and the acceleration.

@@ -27,7 +27,7 @@ fn acting<'t, S: Scalar>(
 }
 
 /// How far a spring is from its rest.
-fn stretch<S: Scalar>(link: &NormalLink<S>, q: &[S]) -> S {
+pub fn stretch<S: Scalar>(link: &NormalLink<S>, q: &[S]) -> S {
     link.drive.ratio * q[link.drive.q] + link.drive.offset - link.passive.rest
 }
 
@@ -41,12 +41,17 @@ fn smoothed<S: Scalar>(link: &NormalLink<S>, speed: S) -> S {
 pub fn forces<S: Scalar>(tree: &NormalTree<S>, q: &[S], speeds: &[S]) -> Vec<S> {
     let force = |Acting { link, stretch, speed }: Acting<'_, S>| {
         let force = link.passive.damping * speed + link.passive.stiffness * stretch;
-        if link.passive.friction.is_zero() || speed.is_zero() {
+        if link.passive.friction.is_zero() {
             return force;
         }
-        force + link.passive.friction * (speed / smoothed(link, speed))
+        force + link.passive.friction * friction_per_coefficient(link, speed)
     };
     acting(tree, q, speeds).map(force).collect()
+}
+
+/// `s/√(s² + s₀²)`: what friction is per unit of its coefficient.
+pub fn friction_per_coefficient<S: Scalar>(link: &NormalLink<S>, speed: S) -> S {
+    if speed.is_zero() { S::zero() } else { speed / smoothed(link, speed) }
 }
 
 /// The derivative of each column's force by its own coordinate.

@@ -7,7 +7,7 @@ use super::quantities::slots;
 use super::shapes::{pseudo_inertia, snap_of};
 use super::topology::Topology;
 use super::values::Values;
-use super::{Drive, Frame, JointInfo, Limits, Link, Model, Motion, Passive, Tree, lines, physics};
+use super::{Drive, Frame, JointInfo, Limits, Link, LinkInfo, Model, Motion, Passive, Tree, lines, physics};
 use crate::diagnostics::Diagnostics;
 use crate::spatial::{Pose, PseudoInertia, Vector3};
 use crate::spec::{Formula, JointKind, JointSpec, RobotSpec};
@@ -35,7 +35,9 @@ pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) ->
     let parameters = parameters(&values, &units, &slots);
     let tree = tree.filter(|_| diags.len() == before)?;
     physics::check_links(spec, &topology, graph, &tree, diags);
-    let model = Model { name: spec.ident.to_string(), field_type: field_type?, parameters, joints, tree };
+    let links = link_infos(spec, &tree);
+    let model =
+        Model { name: spec.ident.to_string(), field_type: field_type?, parameters, joints, links, tree };
     (diags.len() == before).then_some(model)
 }
 
@@ -127,6 +129,12 @@ impl<'g> Assembly<'_, 'g> {
         frames.sort_by_key(|(line, _)| *line);
         frames.into_iter().map(|(_, frame)| frame).collect()
     }
+}
+
+fn link_infos(spec: &RobotSpec, tree: &Tree<Expr<'_>>) -> Vec<LinkInfo> {
+    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed);
+    let body = |joint: &JointSpec| tree.frames.iter().position(|frame| frame.name == joint.child.text);
+    moving.map(|joint| LinkInfo { joint: joint.name.text.clone(), body: body(joint) }).collect()
 }
 
 fn joint_infos(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) -> Vec<JointInfo> {

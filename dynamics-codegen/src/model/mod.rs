@@ -79,6 +79,15 @@ pub struct JointInfo {
     pub limits: Limits,
 }
 
+/// A link as users see it.
+#[derive(Clone, Debug)]
+pub struct LinkInfo {
+    /// The name of its joint.
+    pub joint: String,
+    /// The frame of the body that the joint carries; none of a link between the parts of a joint.
+    pub body: Option<usize>,
+}
+
 /// A checked robot.
 #[derive(Clone, Debug)]
 pub struct Model<'g> {
@@ -90,6 +99,8 @@ pub struct Model<'g> {
     pub parameters: Vec<Parameter>,
     /// The moving joints, in the order of their coordinates.
     pub joints: Vec<JointInfo>,
+    /// The links, as the tree has them.
+    pub links: Vec<LinkInfo>,
     /// The kinematics and the masses. Its frames are the bodies, in order of declaration.
     pub tree: Tree<Expr<'g>>,
 }

@@ -7,6 +7,7 @@ use super::share::share;
 use super::table;
 use super::{Companion, Cost, Operand, Program, Source};
 use crate::mechanics::equations::{Block, Derivation, Equation, Inputs, Method};
+use crate::mechanics::regressor::RegressorColumn;
 use crate::model::Model;
 use crate::symbolic::{Expr, Graph, Number};
 
@@ -22,9 +23,40 @@ pub struct Compiled<'g> {
     pub table: Option<Program>,
     /// The methods, in order.
     pub methods: Vec<CompiledMethod<'g>>,
+    /// What the regressor's parameters are called; none where there is no regressor.
+    pub parameter_names: Vec<String>,
+    /// What the base parameters are called.
+    pub base_parameter_names: Vec<String>,
+}
+
+/// How long the vectors of a robot are.
+#[derive(Clone, Copy, Debug)]
+pub struct Sizes {
+    /// Coordinates and speeds.
+    pub inputs: Inputs,
+    /// NP, the parameters of the regressor.
+    pub parameters: usize,
+    /// NB, those that can be told apart.
+    pub base_parameters: usize,
 }
 
 impl Compiled<'_> {
+    /// How long its vectors are.
+    pub fn sizes(&self) -> Sizes {
+        let (parameters, base_parameters) = (self.parameter_names.len(), self.base_parameter_names.len());
+        Sizes { inputs: self.inputs, parameters, base_parameters }
+    }
+
+    /// The program of a method that has one.
+    pub fn program(&self, method: Method) -> Option<&Program> {
+        self.methods.iter().find(|compiled| compiled.method == method).and_then(|compiled| {
+            match &compiled.plan {
+                Plan::StraightLine { program, .. } => Some(program),
+                Plan::FromInverse { .. } | Plan::Table { .. } => None,
+            }
+        })
+    }
+
     /// Every program: the preparation, and those of the methods.
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
@@ -81,7 +113,17 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
         compiled.push(CompiledMethod { method, cost, plan });
     }
     let table = table.map(|entries| program_of(&entries));
-    Compiled { graph, inputs, table, methods: compiled, companion }
+    let names = |columns: Vec<RegressorColumn<Expr<'g>>>| columns.into_iter().map(|c| c.name).collect();
+    let has = |wanted: [Method; 2]| methods.iter().any(|method| wanted.contains(method));
+    let parameter_names = match has([Method::Regressor, Method::InertialParameters]) {
+        true => names(derivation.regressor()),
+        false => vec![],
+    };
+    let base_parameter_names = match has([Method::BaseRegressor, Method::BaseParameters]) {
+        true => names(derivation.base_regressor()),
+        false => vec![],
+    };
+    Compiled { graph, inputs, table, methods: compiled, companion, parameter_names, base_parameter_names }
 }
 
 /// What the loops of the run time cost, with the two methods that they call.

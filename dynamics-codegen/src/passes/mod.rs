@@ -5,13 +5,14 @@ mod hoist;
 mod parameters;
 mod plan;
 mod program;
+mod regression;
 mod schedule;
 mod share;
 mod signs;
 mod table;
 mod verify;
 
-pub use compile::{Compiled, CompiledMethod, compile, entries};
+pub use compile::{Compiled, CompiledMethod, Sizes, compile, entries};
 pub use hoist::Companion;
 pub use plan::{Plan, methods};
 pub use program::{Cost, Operand, Operation, Program, Source, Step};

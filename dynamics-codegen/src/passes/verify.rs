@@ -5,10 +5,11 @@
 //! are compared by their residual: their forward error explodes for a mass matrix that is ill-conditioned and
 //! valid all the same.
 
-use super::{Compiled, CompiledMethod, Plan, Program};
+use super::{Compiled, CompiledMethod, Plan, Program, regression};
 use crate::mechanics::equations::{Argument, Input, Method};
-use crate::mechanics::plain::{ForwardDynamicsDerivatives, Oracle, Rows};
+use crate::mechanics::plain::{ForwardDynamicsDerivatives, Oracle, Rows, total_mass};
 use crate::model::Model;
+use crate::spatial::Random;
 use crate::symbolic::Evaluator;
 
 /// How far a program may be off, relative to the size of what it computes: both roads round, each operation
@@ -38,7 +39,7 @@ pub fn disagreements(model: &Model<'_>, compiled: &Compiled<'_>) -> Vec<Disagree
         for CompiledMethod { method, plan, .. } in &compiled.methods {
             // What the run time makes of two methods is right if they are.
             let Plan::StraightLine { program, .. } = plan else { continue };
-            let error = sample.error(*method, program);
+            let error = sample.error(*method, program, model, compiled);
             let known = found.iter().any(|known| known.method == *method);
             if !(error <= TOLERANCE || known) {
                 found.push(Disagreement { method: *method, error });
@@ -92,7 +93,7 @@ impl Sample {
     }
 
     /// How far the program is off.
-    fn error(&self, method: Method, program: &Program) -> f64 {
+    fn error(&self, method: Method, program: &Program, model: &Model<'_>, compiled: &Compiled<'_>) -> f64 {
         let Self { q, v, a, tau, tree, .. } = self;
         let oracle = Oracle::new(tree);
         let found = self.run(program);
@@ -138,6 +139,24 @@ impl Sample {
                 Some(a) => oracle.forward_dynamics_derivatives_residual(q, v, &a, &self.derivatives(&found)),
                 None => 0.0,
             },
+            Method::CenterOfMass => off(oracle.center_of_mass(q)),
+            Method::CenterOfMassJacobian => {
+                distance(&found, &oracle.center_of_mass_jacobian(q).concat(), 1.0)
+            }
+            Method::CentroidalMomentum => off(oracle.centroidal_momentum(q, v)),
+            Method::CentroidalMomentumMatrix => off(oracle.centroidal_momentum_matrix(q).concat()),
+            Method::TotalMass => off(vec![total_mass(tree)]),
+            Method::Regressor => regression::regressor_off(&found, model, tree, [q, v, a]),
+            Method::InertialParameters => off(regression::parameters(model, tree)),
+            Method::BaseRegressor => match compiled.program(Method::BaseParameters) {
+                Some(parameters) => {
+                    let forces = regression::product(&found, &self.run(parameters));
+                    distance(&forces, &oracle.inverse_dynamics(q, v, a), inertia)
+                }
+                None => 0.0,
+            },
+            // Those that the regressor is checked with.
+            Method::BaseParameters => 0.0,
             Method::Pose(frame) => {
                 let pose = oracle.pose(frame, q);
                 off([pose.rotation.0.concat(), pose.translation.0.to_vec()].concat())
@@ -186,7 +205,7 @@ fn read(input: Input, parameters: &[f64], vectors: [&[f64]; 4]) -> f64 {
 }
 
 /// The largest difference, over the size of the expected numbers and `size`.
-fn distance(found: &[f64], expected: &[f64], size: f64) -> f64 {
+pub(super) fn distance(found: &[f64], expected: &[f64], size: f64) -> f64 {
     let differences: Vec<f64> = found.iter().zip(expected).map(|(x, y)| x - y).collect();
     let missed = largest(&differences);
     if missed == 0.0 { 0.0 } else { missed / (largest(expected) + size) }
@@ -199,18 +218,4 @@ fn largest(values: &[f64]) -> f64 {
 
 fn larger(a: f64, b: f64) -> f64 {
     if b.is_nan() || b > a { b } else { a }
-}
-
-/// Numbers between −1 and 1 that are the same on every machine: splitmix64 of a counter.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut x = self.0;
-        x = (x ^ (x >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        x = (x ^ (x >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        x ^= x >> 31;
-        (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }

@@ -6,8 +6,8 @@
 use std::fmt::Write as _;
 
 use super::names::{CALLED, Names, angle_suffix, component, entry};
-use crate::mechanics::equations::{Block, Input, Inputs, Shape};
-use crate::passes::{Operand, Operation, Program, Source};
+use crate::mechanics::equations::{Block, Input, Shape};
+use crate::passes::{Operand, Operation, Program, Sizes, Source};
 use crate::symbolic::Number;
 
 /// The most statements in one block.
@@ -37,7 +37,7 @@ pub(super) struct Context<'a> {
     /// How constants are written.
     pub(super) literals: Literals,
     /// The sizes of the arguments.
-    pub(super) inputs: Inputs,
+    pub(super) sizes: Sizes,
 }
 
 /// The text of a method's body, apart from its frame.

@@ -52,7 +52,7 @@ impl Emitter<'_, '_> {
             fields: &[],
             parameters: &self.parameters,
             literals: self.literals(),
-            inputs: self.inputs,
+            sizes: self.sizes,
         };
         let body = body::write(program, &self.fields, &context, 3);
         let _ = writeln!(

@@ -8,6 +8,7 @@ use super::names::{self, Names};
 use super::{Form, Input, Item};
 use crate::mechanics::equations::{Input as Symbol, Inputs, Method};
 use crate::model::names::{frame_type, hides_a_common_name};
+use crate::passes::Sizes;
 use crate::symbolic::{Expr, Op};
 
 /// Writes everything that is generated for a robot.
@@ -63,7 +64,7 @@ impl Host {
 pub(super) struct Emitter<'m, 'g> {
     pub(super) input: &'m Input<'m, 'g>,
     pub(super) item: &'m Item,
-    pub(super) inputs: Inputs,
+    pub(super) sizes: Sizes,
     /// The scalar's name in the impls.
     pub(super) scalar: String,
     /// The bound of the scalar where it is no parameter of the robot.
@@ -88,7 +89,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
             input,
             scalar_parameter: is_free.then(|| format!("{scalar}: Scalar")),
             item: input.item,
-            inputs: input.compiled.inputs,
+            sizes: input.compiled.sizes(),
             scalar,
             parameters,
             fields,
@@ -159,7 +160,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     /// What a body of the companion's impls is written with.
     pub(super) fn context<'a>(&'a self, companion: &'a str) -> Context<'a> {
         let (fields, parameters) = (&self.fields, &self.parameters);
-        Context { companion, fields, parameters, literals: self.literals(), inputs: self.inputs }
+        Context { companion, fields, parameters, literals: self.literals(), sizes: self.sizes }
     }
 
     fn methods(&self) -> Vec<Written> {
@@ -260,10 +261,10 @@ impl<'m, 'g> Emitter<'m, 'g> {
     pub(super) fn forwarding(&self, method: Method, receiver: &str, callee: &str) -> String {
         let mut arguments = receiver.to_owned();
         for &argument in method.arguments() {
-            let type_ = methods::argument_type(argument, &self.scalar, self.inputs);
+            let type_ = methods::argument_type(argument, &self.scalar, self.sizes);
             let _ = write!(arguments, ", {}: {type_}", argument.name());
         }
-        let returned = methods::return_type(method, &self.scalar, self.inputs);
+        let returned = methods::return_type(method, &self.scalar, self.sizes);
         let passed = methods::pass_on(method);
         format!(
             "        #[inline]\n        fn {0}({arguments}) -> {returned} {{\n            {callee}{0}({passed})\n        }}\n",
@@ -273,12 +274,12 @@ impl<'m, 'g> Emitter<'m, 'g> {
 
     /// A trait of the robot's scalar and sizes: `Dynamics<T, 7, 6>`.
     pub(super) fn of_sizes(&self, trait_: &str) -> String {
-        let Inputs { coordinates, dof, .. } = self.inputs;
+        let Inputs { coordinates, dof, .. } = self.sizes.inputs;
         format!("{trait_}<{}, {coordinates}, {dof}>", self.scalar)
     }
 
     fn state_space(&self, written: &[Written]) -> String {
-        let (scalar, n) = (&self.scalar, self.inputs.dof);
+        let (scalar, n) = (&self.scalar, self.sizes.inputs.dof);
         let mut text = String::new();
         for host in self.types() {
             text.push_str(&self.open(&host, &format!("Configuration<{scalar}, {n}, {n}>"), &host.type_));

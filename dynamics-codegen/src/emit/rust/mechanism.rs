@@ -11,7 +11,7 @@ use crate::passes::Cost;
 impl Emitter<'_, '_> {
     /// The types that the constants are implemented for: no scalar needed on a unit struct.
     pub(super) fn mechanism(&self, written: &[Written]) -> String {
-        let Inputs { coordinates, dof: n, .. } = self.inputs;
+        let Inputs { coordinates, dof: n, .. } = self.sizes.inputs;
         let quoted =
             |names: Vec<&str>| names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
         let model = self.input.model;

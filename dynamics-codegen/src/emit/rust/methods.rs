@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::body::{self, Body, Context};
-use crate::mechanics::equations::{Argument, Block, Input, Inputs, Method, Shape};
-use crate::passes::{CompiledMethod, Cost, Plan, Program};
+use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
+use crate::passes::{CompiledMethod, Cost, Plan, Program, Sizes};
 
 /// A method on its way into an impl.
 pub(super) struct Written {
@@ -25,7 +25,7 @@ pub(super) fn write(
 ) -> Written {
     let CompiledMethod { method, plan, cost } = compiled;
     let mut text = String::new();
-    let _ = writeln!(text, "    /// {}", headline(*method, context.inputs.dof));
+    let _ = writeln!(text, "    /// {}", headline(*method, context.sizes.inputs.dof));
     let operations = describe(*cost);
     let _ = match plan {
         Plan::Table { .. } => {
@@ -37,8 +37,8 @@ pub(super) fn write(
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
-        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar, context.inputs)),
-        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.inputs)),
+        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar, context.sizes)),
+        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.sizes)),
         Plan::Table { frame: Some((link, program)) } => {
             text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
         }
@@ -54,11 +54,11 @@ fn straight_line(
     scalar: &str,
     robot: &str,
 ) -> String {
-    let names = body::entry_names(blocks, context.inputs.dof);
+    let names = body::entry_names(blocks, context.sizes.inputs.dof);
     let body = body::write(program, &names, context, 2);
     let reads_robot = if body.fields.is_empty() { "_robot" } else { "robot" };
     let receiver = if takes_robot(method) { format!("{reads_robot}: &{robot}") } else { "&self".to_owned() };
-    let mut text = signature(method, &receiver, scalar, context.inputs, &body) + "\n";
+    let mut text = signature(method, &receiver, scalar, context.sizes, &body) + "\n";
     text.push_str(&bindings(method, context, &body));
     if !body.statements.is_empty() {
         text.push('\n');
@@ -73,16 +73,16 @@ fn straight_line(
 }
 
 /// The body that leaves everything to the run time's recursion.
-fn by_table(method: Method, scalar: &str, inputs: Inputs) -> String {
+fn by_table(method: Method, scalar: &str, sizes: Sizes) -> String {
     let arguments: String = method
         .arguments()
         .iter()
-        .map(|&argument| format!(", {}: {}", argument.name(), argument_type(argument, scalar, inputs)))
+        .map(|&argument| format!(", {}: {}", argument.name(), argument_type(argument, scalar, sizes)))
         .collect();
     format!(
         "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table().{0}({2})\n    }}\n",
         method.name(),
-        return_type(method, scalar, inputs),
+        return_type(method, scalar, sizes),
         pass_on(method)
     )
 }
@@ -102,8 +102,8 @@ fn frame_by_table(
     let mut text = format!(
         "    fn {}(robot: &{robot}, q: {}) -> {} {{\n",
         method.name(),
-        argument_type(Argument::Q, scalar, context.inputs),
-        return_type(method, scalar, context.inputs)
+        argument_type(Argument::Q, scalar, context.sizes),
+        return_type(method, scalar, context.sizes)
     );
     text.push_str(&bindings(method, context, &body));
     let _ = writeln!(
@@ -117,12 +117,12 @@ fn frame_by_table(
 }
 
 /// The body that leaves the solves to the run time.
-fn from_inverse(ancestors: &[Vec<usize>], scalar: &str, inputs: Inputs) -> String {
+fn from_inverse(ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
     let n = ancestors.len();
     let mut text = format!(
         "    fn forward_dynamics_derivatives(&self, q: &SVector<{scalar}, {}>, v: &SVector<{scalar}, {n}>, \
          tau: &SVector<{scalar}, {n}>) -> ForwardDynamicsDerivatives<{scalar}, {n}> {{\n",
-        inputs.coordinates
+        sizes.inputs.coordinates
     );
     let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
     for ancestors in ancestors {
@@ -142,26 +142,26 @@ pub(super) fn takes_robot(method: Method) -> bool {
 }
 
 /// The signature without the body.
-pub(super) fn signature(method: Method, receiver: &str, scalar: &str, inputs: Inputs, body: &Body) -> String {
+pub(super) fn signature(method: Method, receiver: &str, scalar: &str, sizes: Sizes, body: &Body) -> String {
     let mut arguments = receiver.to_owned();
     for &argument in method.arguments() {
         let read =
             body.inputs.iter().any(|(input, _)| matches!(input, Input::Argument(a, _) if *a == argument));
         let underscore = if read { "" } else { "_" };
-        let type_ = argument_type(argument, scalar, inputs);
+        let type_ = argument_type(argument, scalar, sizes);
         let _ = write!(arguments, ", {underscore}{}: {type_}", argument.name());
     }
-    format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, inputs))
+    format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, sizes))
 }
 
 /// The type of an argument.
-pub(super) fn argument_type(argument: Argument, scalar: &str, inputs: Inputs) -> String {
-    format!("&SVector<{scalar}, {}>", inputs.size(argument))
+pub(super) fn argument_type(argument: Argument, scalar: &str, sizes: Sizes) -> String {
+    format!("&SVector<{scalar}, {}>", sizes.inputs.size(argument))
 }
 
 /// The type that a method returns.
-pub(super) fn return_type(method: Method, scalar: &str, inputs: Inputs) -> String {
-    let n = inputs.dof;
+pub(super) fn return_type(method: Method, scalar: &str, sizes: Sizes) -> String {
+    let n = sizes.inputs.dof;
     match method {
         Method::MassMatrix | Method::CoriolisMatrix | Method::InverseMassMatrix => {
             format!("SMatrix<{scalar}, {n}, {n}>")
@@ -179,7 +179,17 @@ pub(super) fn return_type(method: Method, scalar: &str, inputs: Inputs) -> Strin
         Method::ForwardDynamicsDerivatives => format!("ForwardDynamicsDerivatives<{scalar}, {n}>"),
         Method::Pose(_) => format!("Pose<{scalar}>"),
         Method::Jacobian(_) | Method::WorldJacobian(_) => format!("SMatrix<{scalar}, 6, {n}>"),
-        Method::Velocity(_) | Method::Acceleration(_) => format!("SVector<{scalar}, 6>"),
+        Method::TotalMass => scalar.to_owned(),
+        Method::CenterOfMass => format!("SVector<{scalar}, 3>"),
+        Method::CenterOfMassJacobian => format!("SMatrix<{scalar}, 3, {n}>"),
+        Method::CentroidalMomentum | Method::Velocity(_) | Method::Acceleration(_) => {
+            format!("SVector<{scalar}, 6>")
+        }
+        Method::CentroidalMomentumMatrix => format!("SMatrix<{scalar}, 6, {n}>"),
+        Method::Regressor => format!("SMatrix<{scalar}, {n}, {}>", sizes.parameters),
+        Method::InertialParameters => format!("SVector<{scalar}, {}>", sizes.parameters),
+        Method::BaseRegressor => format!("SMatrix<{scalar}, {n}, {}>", sizes.base_parameters),
+        Method::BaseParameters => format!("SVector<{scalar}, {}>", sizes.base_parameters),
     }
 }
 
@@ -200,6 +210,17 @@ fn headline(method: Method, n: usize) -> String {
         Method::EquationsOfMotion => "`M(q)`, `C(q,v)` and `G(q)` in one.".to_owned(),
         Method::InverseDynamicsDerivatives => "`∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`.".to_owned(),
         Method::ForwardDynamicsDerivatives => "`∂a/∂q`, `∂a/∂v` and `∂a/∂τ = M⁻¹`.".to_owned(),
+        Method::TotalMass => "The mass of all that moves, kg.".to_owned(),
+        Method::CenterOfMass => "The centre of mass in the world, m.".to_owned(),
+        Method::CenterOfMassJacobian => format!("The Jacobian of the centre of mass: 3×{n}."),
+        Method::CentroidalMomentum => {
+            "The momentum about the centre of mass, linear first, in world axes.".to_owned()
+        }
+        Method::CentroidalMomentumMatrix => format!("The matrix that takes `v` to that momentum: 6×{n}."),
+        Method::Regressor => "`Y(q,v,a)` of `τ = Y·π`.".to_owned(),
+        Method::InertialParameters => "`π`: the parameters of the regressor.".to_owned(),
+        Method::BaseRegressor => "The regressor of the parameters that can be told apart.".to_owned(),
+        Method::BaseParameters => "The parameters that can be told apart.".to_owned(),
         Method::Pose(_) => "The frame's pose in the world.".to_owned(),
         Method::Jacobian(_) => {
             "The twist of the frame in its own axes for each joint's unit speed.".to_owned()
@@ -232,7 +253,7 @@ fn bindings(method: Method, context: &Context<'_>, body: &Body) -> String {
             let input = Input::Argument(argument, k);
             body.inputs.iter().find(|(known, _)| *known == input).map_or("_", |(_, name)| name.as_str())
         };
-        let components: Vec<&str> = (0..context.inputs.size(argument)).map(component).collect();
+        let components: Vec<&str> = (0..context.sizes.inputs.size(argument)).map(component).collect();
         if components.iter().any(|&name| name != "_") {
             let _ =
                 writeln!(lines, "        let [[{}]] = {}.data.0;", shortened(&components), argument.name());

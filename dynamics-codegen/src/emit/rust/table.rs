@@ -15,7 +15,7 @@ impl Emitter<'_, '_> {
         let context = self.context(&name);
         let body = body::write(program, &[], &context, 3);
         let numbers: Vec<&str> = body.results.iter().map(String::as_str).collect();
-        let (scalar, n) = (&self.scalar, self.inputs.dof);
+        let (scalar, n) = (&self.scalar, self.sizes.inputs.dof);
         let generics =
             self.scalar_parameter.as_ref().map_or_else(String::new, |scalar| format!("<{scalar}>"));
         let mut text = self.open_without_scalar(&self.prepared(), "");

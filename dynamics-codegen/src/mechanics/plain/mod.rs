@@ -19,6 +19,7 @@ mod rnea;
 mod six;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 pub use coriolis::{bracket, coriolis_matrix};
 pub use dense::{Cholesky, Rows};
@@ -29,3 +30,4 @@ pub use mass_matrix::mass_matrix;
 pub use oracle::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives, Oracle};
 pub use rnea::{bias_forces, gravity_forces, inverse_dynamics};
 pub use six::{Matrix6, Six};
+pub use whole::{center_of_mass, centroidal_momentum, total_mass};

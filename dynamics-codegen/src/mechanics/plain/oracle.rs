@@ -9,7 +9,7 @@
 use super::dense::{Cholesky, Rows, identity, largest, magnitudes, product, times, transpose};
 use super::{
     Dual, bias_forces, coriolis_matrix, energy, gravity_forces, inverse_dynamics, kinematics, mass_matrix,
-    passive,
+    passive, whole,
 };
 use crate::model::Tree;
 use crate::spatial::Pose;
@@ -119,6 +119,32 @@ impl<'t> Oracle<'t> {
     /// The 6×n Jacobian of a frame in world axes, linear rows first, of the frame's own origin.
     pub fn world_jacobian(&self, frame: usize, q: &[f64]) -> Rows {
         kinematics::world_jacobian(self.tree, &self.tree.frames[frame], q)
+    }
+
+    /// The centre of mass of all that moves, in the world.
+    pub fn center_of_mass(&self, q: &[f64]) -> Vec<f64> {
+        whole::center_of_mass(self.tree, q).0.to_vec()
+    }
+
+    /// Its Jacobian, 3×n: how it moves along each unit speed.
+    pub fn center_of_mass_jacobian(&self, q: &[f64]) -> Rows {
+        let tree = self.tree.map(Dual::constant);
+        let along = |unit: &Vec<f64>| -> Vec<f64> {
+            let moving = Dual::moving(q, &self.tree.configuration_rate(q, unit));
+            whole::center_of_mass(&tree, &moving).0.map(|x| x.tangent).to_vec()
+        };
+        transpose(&identity(self.tree.dof()).iter().map(along).collect::<Rows>())
+    }
+
+    /// The momentum about the centre of mass, linear first, in world axes.
+    pub fn centroidal_momentum(&self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        whole::centroidal_momentum(self.tree, q, v).0.to_vec()
+    }
+
+    /// The matrix that takes speeds to that momentum, 6×n.
+    pub fn centroidal_momentum_matrix(&self, q: &[f64]) -> Rows {
+        let units = identity(self.tree.dof());
+        transpose(&units.iter().map(|unit| self.centroidal_momentum(q, unit)).collect::<Rows>())
     }
 
     /// The twist of a frame in its own axes, linear first.

@@ -1,0 +1,277 @@
+//! The parameters that joint forces tell apart, and the regressor of these: `τ = Y_b(q,v,a)·π_b`.
+//!
+//! Mass that may belong to a parent is given to it ([`regroup`](super::regroup)); what is left of a link has columns of
+//! its own. Beyond two axes that are not parallel these are independent. Nearer to the base, where less can move,
+//! some are zero whatever the motion is, and are left out; and some are combinations of others, which take up their
+//! parameters. Combinations are found in numbers, at random states; what holds at one value of the robot's fields and
+//! not at another is not taken for one.
+//!
+//! M. Gautier, W. Khalil, *Direct calculation of minimum set of inertial parameters of serial robots*, 1990.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::method::Inputs;
+use super::motion::accelerations;
+use super::normal::{NormalTree, PlacedJoint};
+use super::regressor::{Regressed, RegressorColumn};
+use super::regroup::regroup;
+use super::rnea::{Wrench, link_wrench};
+use crate::model::Motion;
+use crate::spatial::{Matrix3, PseudoInertia, Random, Scalar, Symmetric3, Vector3};
+use crate::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
+
+/// The columns of the base parameters; `is_body` says of each link whether it may have mass of its own.
+pub fn base_columns<'g>(
+    robot: &Regressed<'_, Expr<'g>>,
+    is_body: &[bool],
+    symbols: &Symbols<'_, 'g>,
+) -> Vec<RegressorColumn<Expr<'g>>> {
+    let (tree, [q, v, a]) = (robot.tree, robot.state);
+    let (grouped, reachable) = (regroup(tree), regroup(&with_full_bodies(tree, is_body)));
+    let placed = tree.place(q);
+    let motion = accelerations(tree, &placed, v, a);
+    let is_bound: Vec<bool> = (0..tree.links.len()).map(|link| is_bound(tree, link)).collect();
+    let mut columns: Vec<(RegressorColumn<Expr<'g>>, bool)> = Vec::new();
+    for (k, motion) in motion.iter().enumerate() {
+        for (moment, name) in MOMENTS.iter().enumerate() {
+            if entry(&reachable.links[k].inertia, moment).is_zero() {
+                continue;
+            }
+            let forces = forces_of(tree, &placed, k, link_wrench(&unit(moment), motion));
+            let column = RegressorColumn {
+                name: format!("{}.{name}", robot.joints[k]),
+                value: entry(&grouped.links[k].inertia, moment),
+                forces: robot.coupling.gather(forces),
+            };
+            columns.push((column, is_bound[k]));
+        }
+    }
+    for (link, &is_bound) in is_bound.iter().enumerate() {
+        columns.extend(robot.of_joint(link).into_iter().map(|column| (column, is_bound)));
+    }
+    independent(columns, symbols)
+}
+
+/// Whether a link moves so little that its parameters may be entangled with others: unless it, or what carries it,
+/// turns about a point or about two axes that are not parallel. Where joints follow others all links are bound.
+fn is_bound<S: Scalar>(tree: &NormalTree<S>, link: usize) -> bool {
+    let mut path: Vec<usize> = tree.path_to_base(link).collect();
+    path.reverse();
+    let mut shared = tree.columns.iter().map(|column| column.speed).collect::<Vec<_>>();
+    shared.sort_unstable();
+    if shared.windows(2).any(|pair| pair[0] == pair[1]) {
+        return true;
+    }
+    // From the last turning link's frame to the frame at hand.
+    let mut since: Option<Matrix3<S>> = None;
+    for k in path {
+        let link = &tree.links[k];
+        let rotation = since.map(|since| since * link.turn.matrix());
+        match link.motion {
+            Motion::Ball | Motion::Free => return false,
+            Motion::Prismatic => {
+                let offset = Matrix3::rotation_z(link.offset.cos, link.offset.sin);
+                since = rotation.map(|rotation| rotation * offset);
+            }
+            Motion::Revolute => {
+                let axis = rotation.map(|rotation| rotation.column(2).0);
+                if axis.is_some_and(|[x, y, _]| !(x.is_zero() && y.is_zero())) {
+                    return false;
+                }
+                since = Some(Matrix3::identity());
+            }
+        }
+    }
+    true
+}
+
+/// The most columns among which combinations are looked for. Robots with more that are bound have parallel axes
+/// throughout or many followers.
+const MOST_BOUND: usize = 100;
+/// What is left of a column of length one when it is a combination of others.
+const NOTHING: f64 = 1e-9;
+
+/// The columns without those that are nothing or, of bound ones, combinations of those before them.
+fn independent<'g>(
+    columns: Vec<(RegressorColumn<Expr<'g>>, bool)>,
+    symbols: &Symbols<'_, 'g>,
+) -> Vec<RegressorColumn<Expr<'g>>> {
+    let is_something = |column: &RegressorColumn<Expr<'g>>| column.forces.iter().any(|x| !x.is_zero());
+    let (mut columns, is_bound): (Vec<_>, Vec<bool>) =
+        columns.into_iter().filter(|(column, _)| is_something(column)).unzip();
+    let bound: Vec<usize> = (0..columns.len()).filter(|&k| is_bound[k]).collect();
+    if bound.len() > MOST_BOUND {
+        return columns;
+    }
+    let forces: Vec<&[Expr<'g>]> = bound.iter().map(|&k| &*columns[k].forces).collect();
+    let [found, again] = [1, 2].map(|set| combinations(sampled(&forces, symbols, set)));
+    let mut is_kept = vec![true; columns.len()];
+    for (place, (shares, others)) in found.iter().zip(&again).enumerate() {
+        let (Some(shares), Some(others)) = (shares, others) else { continue };
+        if shares.iter().zip(others).any(|(one, other)| (one - other).abs() > 1e-6) {
+            continue;
+        }
+        is_kept[bound[place]] = false;
+        let taken = columns[bound[place]].clone();
+        for (&at, &share) in bound.iter().zip(shares) {
+            take_up(&mut columns[at], &taken, share);
+        }
+    }
+    let mut is_kept = is_kept.into_iter();
+    columns.retain(|_| is_kept.next().unwrap_or(true));
+    columns
+}
+
+/// What the graph's symbols are, for states at random.
+pub struct Symbols<'t, 'g> {
+    /// Where they live.
+    pub graph: &'g Graph,
+    /// How many of each kind there are.
+    pub inputs: Inputs,
+    /// The coordinates that begin unit quaternions.
+    pub quaternions: &'t [usize],
+}
+
+/// The forces of the columns at random states, one after another, and at the `set`-th values of the fields.
+fn sampled<'g>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set: u64) -> Vec<Vec<f64>> {
+    let Inputs { parameters, coordinates, dof } = symbols.inputs;
+    let mut samples = vec![vec![]; columns.len()];
+    let felt: Vec<usize> =
+        (0..dof).filter(|&row| columns.iter().any(|forces| !forces[row].is_zero())).collect();
+    // Joints of a tree of their own see as many numbers of a column as there are states.
+    for state in 0..columns.len() + 4 {
+        // Parameters come first among the symbols, and are the same in every state.
+        let mut fields = Random(set);
+        let mut values: Vec<f64> = (0..parameters).map(|_| 1.1 + 0.5 * fields.next()).collect();
+        let mut random = Random(100 + state as u64);
+        values.extend((0..coordinates + 3 * dof).map(|_| 2.5 * random.next()));
+        for at in symbols.quaternions {
+            let quaternion = &mut values[parameters + at..][..4];
+            let length = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
+            quaternion.iter_mut().for_each(|x| *x /= length);
+        }
+        let mut evaluator = Evaluator::new(symbols.graph, |symbol: SymbolId| values[symbol.0 as usize]);
+        for (sample, forces) in samples.iter_mut().zip(columns) {
+            sample.extend(felt.iter().map(|&row| evaluator.value(forces[row])));
+        }
+    }
+    samples
+}
+
+/// For each vector that is a combination of those before it, the shares of all of them in it.
+///
+/// Gram–Schmidt, twice for what rounding leaves the first time; G. Golub, C. Van Loan 2013, ch. 5.2.
+fn combinations(vectors: Vec<Vec<f64>>) -> Vec<Option<Vec<f64>>> {
+    let dot = |x: &[f64], y: &[f64]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
+    let subtract = |x: &mut [f64], k: f64, y: &[f64]| x.iter_mut().zip(y).for_each(|(x, y)| *x -= k * y);
+    let n = vectors.len();
+    // Orthonormal directions, and what each is made of.
+    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = vec![];
+    let mut found = Vec::with_capacity(n);
+    for (k, vector) in vectors.into_iter().enumerate() {
+        let size = dot(&vector, &vector).sqrt();
+        let (mut left, mut made_of) = (vector, vec![0.0; n]);
+        made_of[k] = 1.0;
+        for _ in 0..2 {
+            for (direction, parts) in &basis {
+                let along = dot(&left, direction);
+                subtract(&mut left, along, direction);
+                subtract(&mut made_of, along, parts);
+            }
+        }
+        let length = dot(&left, &left).sqrt();
+        if length <= NOTHING * size {
+            made_of[k] = 0.0;
+            found.push(Some(made_of.iter().map(|share| -share).collect()));
+        } else {
+            [&mut left, &mut made_of].into_iter().flatten().for_each(|x| *x /= length);
+            basis.push((left, made_of));
+            found.push(None);
+        }
+    }
+    found
+}
+
+/// Adds to a column's parameter its share in another that goes. Shares are made of the robot's constant angles,
+/// lengths and ratios: near a simple number they are it, and others are rounded to twelve digits, so that hosts whose
+/// sines differ in the last bit find the same.
+fn take_up<'g>(column: &mut RegressorColumn<Expr<'g>>, taken: &RegressorColumn<Expr<'g>>, share: f64) {
+    let simple = [0.0, 1.0, -1.0, 0.5, -0.5, 2.0, -2.0].into_iter().find(|x| (x - share).abs() < NOTHING);
+    let rounded = || format!("{share:.11e}").parse().unwrap_or(share);
+    let share: f64 = simple.unwrap_or_else(rounded);
+    if share == 0.0 {
+        return;
+    }
+    let Some(factor) = Number::from_f64(share) else { return };
+    column.value = column.value + Expr::from(factor) * taken.value;
+    let (sign, size) = (if share < 0.0 { "-" } else { "+" }, share.abs());
+    let factor = if size == 1.0 { String::new() } else { format!("{size} ") };
+    column.name = format!("{} {sign} {factor}{}", column.name, taken.name);
+}
+
+/// What the columns between a link and the base feel of a wrench on it.
+fn forces_of<'g>(
+    tree: &NormalTree<Expr<'g>>,
+    placed: &[PlacedJoint<Expr<'g>>],
+    link: usize,
+    mut wrench: Wrench<Expr<'g>>,
+) -> Vec<Expr<'g>> {
+    let mut forces = vec![Expr::ZERO; tree.columns.len()];
+    for at in tree.path_to_base(link) {
+        for column in tree.columns_of(at) {
+            forces[column] = wrench.along(tree.columns[column].direction);
+        }
+        if tree.links[at].parent.is_some() {
+            wrench = wrench.up(&placed[at]);
+        }
+    }
+    forces
+}
+
+/// The moments of a link, by the names that base parameters have.
+const MOMENTS: [&str; 10] = [
+    "mass",
+    "mass_x",
+    "mass_y",
+    "mass_z",
+    "moment_xx",
+    "moment_xy",
+    "moment_yy",
+    "moment_xz",
+    "moment_yz",
+    "moment_zz",
+];
+
+fn entry<S: Scalar>(inertia: &PseudoInertia<S>, moment: usize) -> S {
+    let (PseudoInertia { mass, second, .. }, [x, y, z]) = (*inertia, inertia.first.0);
+    [mass, x, y, z, second.xx, second.xy, second.yy, second.xz, second.yz, second.zz][moment]
+}
+
+fn unit<S: Scalar>(moment: usize) -> PseudoInertia<S> {
+    let entry = |k: usize| if k == moment { S::one() } else { S::zero() };
+    PseudoInertia {
+        mass: entry(0),
+        first: Vector3([entry(1), entry(2), entry(3)]),
+        second: Symmetric3 {
+            xx: entry(4),
+            xy: entry(5),
+            yy: entry(6),
+            xz: entry(7),
+            yz: entry(8),
+            zz: entry(9),
+        },
+    }
+}
+
+/// The tree with bodies of which no moment is zero.
+fn with_full_bodies<'g>(tree: &NormalTree<Expr<'g>>, is_body: &[bool]) -> NormalTree<Expr<'g>> {
+    let mut tree = tree.clone();
+    for (k, link) in tree.links.iter_mut().enumerate() {
+        link.inertia = PseudoInertia::zero();
+        for moment in (0..MOMENTS.len()).filter(|_| is_body[k]) {
+            // Numbers without pattern, so that sums of them do not cancel.
+            let size = Number::ratio(1 + ((7 * k + 3 * moment) % 11) as i64, 13 + moment as i64);
+            link.inertia = link.inertia + unit(moment).map(|one: Expr<'g>| one * Expr::from(size));
+        }
+    }
+    tree
+}
