@@ -1,5 +1,6 @@
 //! What generated code needs, under names no user can shadow. Not part of the public interface.
 
+pub mod manifold;
 pub mod recursion;
 pub mod solve;
 
@@ -14,6 +15,9 @@ pub use crate::linearize::{Linearization, StateSpaceModel};
 pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
+pub use manifold::{
+    ball_tangent_rate, difference_ball, difference_free, free_tangent_rate, integrate_ball, integrate_free,
+};
 pub use solve::{factor, forward_from_inverse, solve_columns};
 
 /// `(sin x, cos x)`.
@@ -44,6 +48,17 @@ pub fn of<T: Scalar>(value: f64) -> T {
 #[inline(always)]
 pub const fn columns<T, const R: usize, const C: usize>(columns: [[T; R]; C]) -> SMatrix<T, R, C> {
     SMatrix::from_array_storage(ArrayStorage(columns))
+}
+
+/// Writes the square block with the given columns onto the diagonal of `matrix`, from row and column `first` on;
+/// what does not fit is left out.
+#[inline]
+pub fn put_on_diagonal<T: Scalar, const N: usize, const K: usize>(
+    matrix: &mut SMatrix<T, N, N>,
+    first: usize,
+    block: [[T; K]; K],
+) {
+    crate::linearize::put(matrix, first, first, &columns(block));
 }
 
 /// The vector with the given entries.

@@ -70,7 +70,7 @@ pub struct Linearization<T, const NX: usize, const NU: usize> {
 }
 
 /// Writes `block` into `matrix` from `row`, `column` on; what does not fit is left out.
-fn put<T: Scalar, const R: usize, const C: usize, const P: usize, const Q: usize>(
+pub(crate) fn put<T: Scalar, const R: usize, const C: usize, const P: usize, const Q: usize>(
     matrix: &mut SMatrix<T, R, C>,
     row: usize,
     column: usize,

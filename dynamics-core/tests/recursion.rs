@@ -3,13 +3,11 @@
 
 mod common;
 
-use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
-
-use common::{DoublePendulum, G, Pendulum, Tool0};
+use common::dual::{Dual, moving, resting, tangent};
+use common::{DoublePendulum, G, Pendulum, Tool0, random_numbers, random_vector};
 use dynamics_core::__private::recursion::{Link, Tree};
 use dynamics_core::nalgebra::{Matrix3, Rotation3, Vector3};
 use dynamics_core::prelude::*;
-use dynamics_core::scalar::{One, Zero};
 
 /// Roundings of long sums, relative to the largest entry.
 const TOLERANCE: f64 = 1e-11;
@@ -29,18 +27,6 @@ struct Robot<const N: usize> {
 enum Shape {
     Chain,
     Branched,
-}
-
-fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    move || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
-    }
-}
-
-fn random_vector<const N: usize>(random: &mut impl FnMut() -> f64, size: f64) -> SVector<f64, N> {
-    SVector::from_fn(|_, _| size * random())
 }
 
 fn rows(m: &Matrix3<f64>) -> [[f64; 3]; 3] {
@@ -151,95 +137,6 @@ fn lifted<T: Scalar, const N: usize>(tree: &Tree<f64, N>) -> Tree<T, N> {
         base_first: tree.base_first.map(T::of),
         gravity: tree.gravity.map(T::of),
     }
-}
-
-// Dual numbers.
-
-/// `value + tangent·ε` with `ε² = 0`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Dual {
-    value: f64,
-    tangent: f64,
-}
-
-macro_rules! dual_operator {
-    ($trait:ident, $method:ident, $assign:ident, $assign_method:ident, |$a:ident, $b:ident| $result:expr) => {
-        impl $trait for Dual {
-            type Output = Self;
-            fn $method(self, $b: Self) -> Self {
-                let $a = self;
-                let (value, tangent) = $result;
-                Self { value, tangent }
-            }
-        }
-        impl $assign for Dual {
-            fn $assign_method(&mut self, rhs: Self) {
-                *self = $trait::$method(*self, rhs);
-            }
-        }
-    };
-}
-
-dual_operator!(Add, add, AddAssign, add_assign, |a, b| (a.value + b.value, a.tangent + b.tangent));
-dual_operator!(Sub, sub, SubAssign, sub_assign, |a, b| (a.value - b.value, a.tangent - b.tangent));
-dual_operator!(Mul, mul, MulAssign, mul_assign, |a, b| {
-    (a.value * b.value, a.tangent * b.value + a.value * b.tangent)
-});
-dual_operator!(Div, div, DivAssign, div_assign, |a, b| {
-    (a.value / b.value, (a.tangent - a.value / b.value * b.tangent) / b.value)
-});
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { value: -self.value, tangent: -self.tangent }
-    }
-}
-
-impl Zero for Dual {
-    fn zero() -> Self {
-        Self::of(0.0)
-    }
-    fn is_zero(&self) -> bool {
-        *self == Self::zero()
-    }
-}
-
-impl One for Dual {
-    fn one() -> Self {
-        Self::of(1.0)
-    }
-}
-
-impl Scalar for Dual {
-    fn of(value: f64) -> Self {
-        Self { value, tangent: 0.0 }
-    }
-    fn sin_cos(self) -> (Self, Self) {
-        let (sin, cos) = f64::sin_cos(self.value);
-        let sine = Self { value: sin, tangent: cos * self.tangent };
-        (sine, Self { value: cos, tangent: -sin * self.tangent })
-    }
-    fn sqrt(self) -> Self {
-        let root = self.value.sqrt();
-        Self { value: root, tangent: self.tangent / (2.0 * root) }
-    }
-    fn is_finite(self) -> bool {
-        self.value.is_finite() && self.tangent.is_finite()
-    }
-}
-
-/// `x + rate·ε`
-fn moving<const N: usize>(x: &SVector<f64, N>, rate: &SVector<f64, N>) -> SVector<Dual, N> {
-    x.zip_map(rate, |value, tangent| Dual { value, tangent })
-}
-
-fn resting<const N: usize>(x: &SVector<f64, N>) -> SVector<Dual, N> {
-    x.map(Dual::of)
-}
-
-fn tangent<const R: usize, const C: usize>(x: &SMatrix<Dual, R, C>) -> SMatrix<f64, R, C> {
-    x.map(|x| x.tangent)
 }
 
 // Laws.

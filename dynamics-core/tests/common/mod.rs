@@ -1,10 +1,25 @@
 //! Robots written by hand, as the derive macro would write them.
 #![allow(dead_code, unreachable_pub, missing_docs, reason = "every test file uses its share of these robots")]
 
+pub mod dual;
+
 use dynamics_core::__private::{columns, vector};
 use dynamics_core::prelude::*;
 
 pub const G: f64 = 9.81;
+
+/// Numbers between −1 and 1, the same for the same seed.
+pub fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / (1_u64 << 30) as f64 - 1.0
+    }
+}
+
+pub fn random_vector<const N: usize>(random: &mut impl FnMut() -> f64, size: f64) -> SVector<f64, N> {
+    SVector::from_fn(|_, _| size * random())
+}
 
 /// A point mass on a rod about the world's x axis, hanging along −z at q = 0; generic in its scalar.
 #[derive(Clone, Copy, Debug)]
