@@ -3,7 +3,7 @@
 //! Everything is in SI units and radians. Passive joint forces (damping, friction, springs, armature) act as soon as
 //! the robot's specification has them; armature is part of M.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::error::Error;
 use crate::scalar::Scalar;
@@ -30,6 +30,26 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// In kg·m² between revolute, kg between prismatic coordinates.
     fn mass_matrix(&self, q: &SVector<T, NQ>) -> SMatrix<T, NV, NV>;
 
+    /// The inverse `M(q)⁻¹` of the mass matrix, NV×NV, symmetric.
+    ///
+    /// As provided: what each joint force accelerates. It is then symmetric up to rounding, which is that of the
+    /// acceleration under gravity.
+    ///
+    /// # Cost
+    ///
+    /// As provided, NV + 1 times [`forward_dynamics`](Self::forward_dynamics); generated code has a shorter way.
+    fn inverse_mass_matrix(&self, q: &SVector<T, NQ>) -> SMatrix<T, NV, NV> {
+        let rest = SVector::zeros();
+        let released = self.forward_dynamics(q, &rest, &rest);
+        let mut inverse = SMatrix::<T, NV, NV>::identity();
+        for column in &mut inverse.data.0 {
+            let unit = SVector::from_array_storage(ArrayStorage([*column]));
+            let [accelerations] = (self.forward_dynamics(q, &rest, &unit) - released).data.0;
+            *column = accelerations;
+        }
+        inverse
+    }
+
     /// The Coriolis matrix `C(q,v)`, NV×NV, with `Ṁ = C + Cᵀ`.
     ///
     /// The Levi-Civita choice: between one-dof joints the matrix of Christoffel symbols.
@@ -41,6 +61,16 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
 
     /// The gravity forces `G(q) = ∂V/∂q`, NV, on the left-hand side: the joint forces that hold the robot still.
     fn gravity_forces(&self, q: &SVector<T, NQ>) -> SVector<T, NV>;
+
+    /// The passive joint forces of damping, friction and springs, NV, on the left-hand side.
+    ///
+    /// `damping·v + friction·v/√(v² + friction_speed²) + stiffness·(q − rest)`, for each joint that has them; zero
+    /// as provided. Armature is no force, but part of M.
+    #[inline]
+    fn passive_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV> {
+        let _ = (q, v);
+        SVector::zeros()
+    }
 
     /// The bias forces `h(q,v) = C·v + G` + passive joint forces, NV.
     fn bias_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV>;
@@ -62,13 +92,23 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// The potential energy `V(q)` of gravity, in J, zero where all centres of mass are at the world's origin.
     fn potential_energy(&self, q: &SVector<T, NQ>) -> T;
 
-    /// The Lagrangian `L = T − V`, in J.
+    /// The elastic energy of the springs in joints, `Σ ½ stiffness·(q − rest)²`, in J; zero as provided.
+    ///
+    /// It is no part of `V(q)`, so that `G = ∂V/∂q`; its derivative is the springs' share of
+    /// [`passive_forces`](Self::passive_forces).
+    #[inline]
+    fn elastic_energy(&self, q: &SVector<T, NQ>) -> T {
+        let _ = q;
+        T::zero()
+    }
+
+    /// The Lagrangian `L = T − V`, in J; springs count as forces.
     fn lagrangian(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T;
 
-    /// The total energy `T + V`, in J; conserved without passive and driving forces.
+    /// The total energy `T + V +` elastic energy, in J; conserved without damping, friction and driving forces.
     #[inline]
     fn total_energy(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T {
-        self.kinetic_energy(q, v) + self.potential_energy(q)
+        self.kinetic_energy(q, v) + self.potential_energy(q) + self.elastic_energy(q)
     }
 
     /// `M(q)`, `C(q,v)` and `G(q)` in one; generated code shares the work between them.
@@ -81,11 +121,26 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         }
     }
 
+    /// `Ok` if the quaternions in `q` are of unit length; `Ok` as provided, for robots without quaternions.
+    ///
+    /// Asked by the `try_…` methods and at the start of a [`Simulation`](crate::Simulation). The plain methods take
+    /// a quaternion as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotUnitQuaternion`], of the first; see [`Error::unless_unit_quaternion`] for how exact it must be.
+    #[inline]
+    fn check_configuration(&self, q: &SVector<T, NQ>) -> Result<(), Error> {
+        let _ = q;
+        Ok(())
+    }
+
     /// [`inverse_dynamics`](Self::inverse_dynamics), checked.
     ///
     /// # Errors
     ///
     /// [`Error::NotFinite`] names the argument and the index; under the name `tau` it is the result that overflowed.
+    /// Those of [`check_configuration`](Self::check_configuration).
     fn try_inverse_dynamics(
         &self,
         q: &SVector<T, NQ>,
@@ -95,6 +150,7 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         Error::unless_finite("q", q)?;
         Error::unless_finite("v", v)?;
         Error::unless_finite("a", a)?;
+        self.check_configuration(q)?;
         let tau = self.inverse_dynamics(q, v, a);
         Error::unless_finite("tau", &tau)?;
         Ok(tau)
@@ -107,7 +163,7 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// [`Error::NotFinite`] names the argument and the index; under the name `a` it is a result that is not finite
     /// because the bias forces already are not: speeds that overflow, angles beyond the range of the sine, a
     /// parameter that is NaN. [`Error::SingularMassMatrix`] if arguments and bias forces are finite and the result
-    /// is not.
+    /// is not. Those of [`check_configuration`](Self::check_configuration).
     fn try_forward_dynamics(
         &self,
         q: &SVector<T, NQ>,
@@ -117,6 +173,7 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         Error::unless_finite("q", q)?;
         Error::unless_finite("v", v)?;
         Error::unless_finite("tau", tau)?;
+        self.check_configuration(q)?;
         let a = self.forward_dynamics(q, v, tau);
         let not_finite = Error::unless_finite("a", &a);
         if not_finite.is_err() && Error::unless_finite("h", &self.bias_forces(q, v)).is_ok() {

@@ -19,6 +19,11 @@ pub enum Error {
         /// Its index there, counted from 0.
         index: usize,
     },
+    /// Four coordinates that are a quaternion have another length than 1.
+    NotUnitQuaternion {
+        /// The index in `q` of the first of them, counted from 0.
+        index: usize,
+    },
     /// M(q) has no finite inverse, so that no finite acceleration answers the forces.
     SingularMassMatrix,
     /// A step of time is zero, negative, infinite or NaN.
@@ -51,6 +56,25 @@ impl Error {
             None => Ok(()),
         }
     }
+
+    /// `Ok` if the coordinates `q[index]` to `q[index + 3]` are a unit quaternion: |‖·‖² − 1| ≤ 10⁻⁶. Called by the
+    /// generated [`check_configuration`](crate::Dynamics::check_configuration).
+    ///
+    /// That is eight times what `f32` resolves at 1, so that a quaternion which was rounded to it passes, and so
+    /// close that forces are right to 10⁻⁶. One typed with four digits is to be normalised first.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotUnitQuaternion`].
+    #[inline]
+    pub fn unless_unit_quaternion<T: Scalar>(index: usize, quaternion: [T; 4]) -> Result<(), Self> {
+        const TOLERANCE: f64 = 1e-6;
+        let square = quaternion.iter().fold(T::zero(), |sum, x| x.mul_add(*x, sum));
+        let excess = square - T::one();
+        // Scalars do not compare; below zero there is no root.
+        let inside = (T::of(TOLERANCE * TOLERANCE) - excess * excess).sqrt();
+        if inside.is_finite() { Ok(()) } else { Err(Self::NotUnitQuaternion { index }) }
+    }
 }
 
 impl Error {
@@ -81,6 +105,9 @@ impl fmt::Display for Error {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::NotFinite { vector, index } => write!(f, "{vector}[{index}] is not finite"),
+            Self::NotUnitQuaternion { index } => {
+                write!(f, "the quaternion that begins at q[{index}] is not of unit length")
+            }
             Self::SingularMassMatrix => f.write_str("the mass matrix is singular"),
             Self::StepNotPositive => f.write_str("the time step is not positive and finite"),
             Self::ParameterNotFinite { field } => write!(f, "the parameter `{field}` is not finite"),
@@ -106,7 +133,26 @@ mod tests {
         assert_eq!(infinite, Err(Error::ParameterNotFinite { field: "m2" }));
         assert_eq!(Error::ParameterNotFinite { field: "l" }.to_string(), "the parameter `l` is not finite");
         assert_eq!(Error::unless_finite_parameter("l", -1.0_f32), Ok(()));
+        let message = "the quaternion that begins at q[3] is not of unit length";
+        assert_eq!(Error::NotUnitQuaternion { index: 3 }.to_string(), message);
         assert_eq!(Error::SingularMassMatrix.to_string(), "the mass matrix is singular");
         assert_eq!(Error::StepNotPositive.to_string(), "the time step is not positive and finite");
+    }
+
+    #[test]
+    fn a_quaternion_may_be_rounded_and_no_worse() {
+        let long =
+            |excess: f64| Error::unless_unit_quaternion(3, [0.0, 0.6 * (1.0 + excess / 2.0), 0.0, 0.8]);
+        let error = Err(Error::NotUnitQuaternion { index: 3 });
+        // The square of the length grows by 0.36·excess.
+        for excess in [0.0, 2.7e-6, -2.7e-6] {
+            assert_eq!(long(excess), Ok(()), "{excess}");
+        }
+        for excess in [2.8e-6, -2.8e-6, 1e200, f64::NAN, f64::INFINITY] {
+            assert_eq!(long(excess), error, "{excess}");
+        }
+        assert_eq!(Error::unless_unit_quaternion(3, [0.0; 4]), error);
+        let rounded = [0.1_f64, 0.7, -0.5, 0.5].map(|x| x as f32);
+        assert_eq!(Error::unless_unit_quaternion(0, rounded), Ok(()));
     }
 }

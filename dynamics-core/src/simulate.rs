@@ -62,13 +62,14 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::StepNotPositive`], and [`Error::NotFinite`] for the state.
+    /// [`Error::StepNotPositive`]; [`Error::NotFinite`] and [`Error::NotUnitQuaternion`] for the state.
     pub fn new(robot: &'r R, state: State<T, NQ, NV>, step: T) -> Result<Self, Error> {
         let positive = step > T::zero() && step.is_finite();
         if !positive {
             return Err(Error::StepNotPositive);
         }
         state.check()?;
+        robot.check_configuration(&state.q)?;
         let input: Unforced<T, NQ, NV> = |_, _| SVector::zeros();
         Ok(Self { robot, integrator: Rk4, input, step, time: T::zero(), time_error: T::zero(), state })
     }

@@ -8,7 +8,7 @@ use crate::scalar::Scalar;
 /// Position and velocity: `x = (q, v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<T, const NQ: usize, const NV: usize> {
-    /// The configuration, in rad or m.
+    /// The configuration, in rad or m; of ball and free joints quaternions, without unit.
     pub q: SVector<T, NQ>,
     /// The velocity, in rad/s or m/s.
     pub v: SVector<T, NV>,
@@ -39,6 +39,8 @@ impl<T: Scalar, const NQ: usize, const NV: usize> State<T, NQ, NV> {
 }
 
 /// The configurations of a robot: a vector space for one-dof joints, a manifold with ball and free joints.
+///
+/// What is provided here serves robots without quaternions; of others it does not compile.
 pub trait Configuration<T: Scalar, const NQ: usize, const NV: usize> {
     /// `q ⊕ δ`, NQ: where `q` gets to under the constant velocity `δ` in one unit of time.
     ///
@@ -46,4 +48,25 @@ pub trait Configuration<T: Scalar, const NQ: usize, const NV: usize> {
     /// `δ` being a twist in the body. It must be that exponential and no mere first-order update: the order of
     /// [`Rk4`](crate::simulate::Rk4) rests on it.
     fn integrate(&self, q: &SVector<T, NQ>, delta: &SVector<T, NV>) -> SVector<T, NQ>;
+
+    /// `δ = q₁ ⊖ q₀`, NV: the constant velocity that takes `q0` to `q1` in one unit of time, so that `q₁ = q₀ ⊕ δ`.
+    ///
+    /// For one-dof joints `q₁ − q₀`, with the whole turns of a revolute one. For ball and free joints the logarithm
+    /// of `q₀⁻¹·q₁`, by the shorter way, up to half a turn.
+    #[inline]
+    fn difference(&self, q0: &SVector<T, NQ>, q1: &SVector<T, NQ>) -> SVector<T, NV> {
+        const { assert!(NQ == NV, "quaternions are not subtracted: `difference` must be written") };
+        let mut delta = SVector::<T, NV>::zeros();
+        for ((delta, q0), q1) in delta.iter_mut().zip(q0).zip(q1) {
+            *delta = *q1 - *q0;
+        }
+        delta
+    }
+
+    /// The configuration of zeros, NQ, where quaternions are `0, 0, 0, 1`.
+    #[inline]
+    fn neutral(&self) -> SVector<T, NQ> {
+        const { assert!(NQ == NV, "a quaternion is never zero: `neutral` must be written") };
+        SVector::zeros()
+    }
 }

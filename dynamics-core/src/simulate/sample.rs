@@ -20,11 +20,15 @@ impl<R, T: Scalar, const NQ: usize, const NV: usize> Sample<'_, R, T, NQ, NV>
 where
     R: Dynamics<T, NQ, NV>,
 {
-    /// The kinetic and potential energy, in J.
+    /// The kinetic, potential and elastic energy, in J.
     #[must_use]
     pub fn energy(&self) -> Energy<T> {
         let State { q, v } = &self.state;
-        Energy { kinetic: self.robot.kinetic_energy(q, v), potential: self.robot.potential_energy(q) }
+        Energy {
+            kinetic: self.robot.kinetic_energy(q, v),
+            potential: self.robot.potential_energy(q),
+            elastic: self.robot.elastic_energy(q),
+        }
     }
 }
 
@@ -47,14 +51,16 @@ impl<R, T: fmt::Debug, const NQ: usize, const NV: usize> fmt::Debug for Sample<'
 pub struct Energy<T> {
     /// `½ vᵀ·M·v`.
     pub kinetic: T,
-    /// `V(q)`.
+    /// `V(q)`, of gravity.
     pub potential: T,
+    /// That of springs in joints.
+    pub elastic: T,
 }
 
 impl<T: Copy + Add<Output = T>> Energy<T> {
-    /// Kinetic plus potential energy, in J.
+    /// The sum of all, in J.
     #[must_use]
     pub fn total(&self) -> T {
-        self.kinetic + self.potential
+        self.kinetic + self.potential + self.elastic
     }
 }

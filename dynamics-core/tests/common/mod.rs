@@ -2,8 +2,9 @@
 #![allow(dead_code, unreachable_pub, missing_docs, reason = "every test file uses its share of these robots")]
 
 pub mod dual;
+pub mod free_box;
 
-use dynamics_core::__private::{columns, vector};
+use dynamics_core::__private::{ball_tangent_rate, columns, difference_ball, integrate_ball, vector};
 use dynamics_core::prelude::*;
 
 pub const G: f64 = 9.81;
@@ -285,12 +286,60 @@ impl Dynamics<f64, 4, 3> for Spinner {
     fn lagrangian(&self, q: &SVector<f64, 4>, v: &SVector<f64, 3>) -> f64 {
         self.kinetic_energy(q, v)
     }
+    fn check_configuration(&self, q: &SVector<f64, 4>) -> Result<(), Error> {
+        let [q] = q.data.0;
+        Error::unless_unit_quaternion(0, q)
+    }
+}
+
+impl DynamicsDerivatives<f64, 4, 3> for Spinner {
+    fn inverse_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, 4>,
+        v: &SVector<f64, 3>,
+        _a: &SVector<f64, 3>,
+    ) -> InverseDynamicsDerivatives<f64, 3> {
+        let inertia = self.mass_matrix(q);
+        InverseDynamicsDerivatives {
+            dtau_dq: SMatrix::zeros(),
+            dtau_dv: v.cross_matrix() * inertia - (inertia * v).cross_matrix(),
+            dtau_da: inertia,
+        }
+    }
+    fn forward_dynamics_derivatives(
+        &self,
+        q: &SVector<f64, 4>,
+        v: &SVector<f64, 3>,
+        tau: &SVector<f64, 3>,
+    ) -> ForwardDynamicsDerivatives<f64, 3> {
+        let a = self.forward_dynamics(q, v, tau);
+        let da_dtau = SMatrix::from_diagonal(&vector(MOMENTS.map(f64::recip)));
+        let InverseDynamicsDerivatives { dtau_dq, dtau_dv, .. } = self.inverse_dynamics_derivatives(q, v, &a);
+        ForwardDynamicsDerivatives { da_dq: -(da_dtau * dtau_dq), da_dv: -(da_dtau * dtau_dv), da_dtau }
+    }
+}
+
+/// A torque about every axis of the body.
+impl StateSpaceModel<f64, 4, 3, 6, 3> for Spinner {
+    fn input_map(&self) -> SMatrix<f64, 3, 3> {
+        SMatrix::identity()
+    }
+    fn tangent_rate(&self, v: &SVector<f64, 3>) -> SMatrix<f64, 3, 3> {
+        let [v] = v.data.0;
+        columns(ball_tangent_rate(v))
+    }
 }
 
 impl Configuration<f64, 4, 3> for Spinner {
     fn integrate(&self, q: &SVector<f64, 4>, delta: &SVector<f64, 3>) -> SVector<f64, 4> {
-        use dynamics_core::nalgebra::{Quaternion, UnitQuaternion};
-        let q = UnitQuaternion::new_unchecked(Quaternion::from(*q));
-        (q * UnitQuaternion::from_scaled_axis(*delta)).into_inner().coords
+        let ([q], [delta]) = (q.data.0, delta.data.0);
+        vector(integrate_ball(q, delta))
+    }
+    fn difference(&self, q0: &SVector<f64, 4>, q1: &SVector<f64, 4>) -> SVector<f64, 3> {
+        let ([q0], [q1]) = (q0.data.0, q1.data.0);
+        vector(difference_ball(q0, q1))
+    }
+    fn neutral(&self) -> SVector<f64, 4> {
+        vector([0.0, 0.0, 0.0, 1.0])
     }
 }
