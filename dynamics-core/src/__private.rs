@@ -6,6 +6,7 @@ pub mod solve;
 
 pub use nalgebra::{ArrayStorage, SMatrix, SVector};
 
+pub use crate::centroidal::CentroidalDynamics;
 pub use crate::dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
@@ -13,6 +14,7 @@ pub use crate::error::Error;
 pub use crate::kinematics::{Frame, Kinematics, Pose};
 pub use crate::linearize::{Linearization, StateSpaceModel};
 pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
+pub use crate::regressor::{BaseRegressor, Regressor};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
 pub use manifold::{

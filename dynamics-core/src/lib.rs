@@ -4,7 +4,8 @@
 //!
 //! > M(q)·v̇ + C(q,v)·v + G(q) = τ
 //!
-//! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), [simulation](Simulation),
+//! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), the
+//! [centre of mass](CentroidalDynamics), [inertial parameters](Regressor), [simulation](Simulation),
 //! [linearisation](StateSpaceModel). The derive macro writes the implementations, specialised to one robot.
 //! No heap, no `unsafe`, no panics, no standard library unless asked for.
 //!
@@ -17,12 +18,15 @@
 //! | `C` | Levi-Civita: C·v + G is exact and Ṁ = C + Cᵀ; between one-dof joints the Christoffel matrix |
 //! | `G` | ∂V/∂q, on the left-hand side: the forces that hold the robot still |
 //! | `tau` | positive along the joint's axis; vᵀτ is the power put in |
+//! | passive forces | of damping, friction and springs, on the left-hand side, beside `G`; armature is part of `M` |
+//! | `V` | of gravity alone; the energy of springs is apart, and part of every total |
 //! | six-vectors | linear first, then angular |
 //! | quaternions | i, j, k, w, of unit length; before them, in a free joint, the position |
 //! | velocity of a free joint | the twist of the body, in the body |
 //! | derivatives by `q` | in the tangent space: by δ of `q ⊕ δ` |
+//! | inertial parameters | m, m·c, then xx, xy, yy, xz, yz, zz of the inertia about the origin of the body's frame |
 //! | poses | map coordinates in the frame to coordinates in the world |
-//! | not finite, singular | IEEE 754 in plain methods, an [`Error`] from `try_…` methods and simulation |
+//! | not finite, singular, no unit quaternion | IEEE 754 in plain methods, an [`Error`] from `try_…` methods and simulation |
 //!
 //! # Features
 //!
@@ -40,12 +44,14 @@ extern crate std;
 
 #[doc(hidden)]
 pub mod __private;
+pub mod centroidal;
 pub mod dynamics;
 pub mod error;
 pub mod kinematics;
 pub mod linearize;
 pub mod mechanism;
 mod product;
+pub mod regressor;
 pub mod scalar;
 pub mod simulate;
 #[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
@@ -58,6 +64,7 @@ pub use nalgebra;
 #[cfg(feature = "derive")]
 pub use dynamics_macros::Dynamics;
 
+pub use centroidal::CentroidalDynamics;
 pub use dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
@@ -65,6 +72,7 @@ pub use error::Error;
 pub use kinematics::{Frame, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
 pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
+pub use regressor::{BaseRegressor, Regressor};
 pub use scalar::Scalar;
 pub use simulate::{Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation};
 pub use state::{Configuration, State};
@@ -72,10 +80,10 @@ pub use state::{Configuration, State};
 /// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
 pub mod prelude {
     pub use crate::{
-        Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy, EquationsOfMotion, Error,
-        ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator, InverseDynamicsDerivatives, JointLimits,
-        Kinematics, Linearization, Mechanism, Pose, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation,
-        State, StateSpaceModel,
+        BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy,
+        EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator,
+        InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose, Regressor, Rk4,
+        Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel,
     };
     pub use nalgebra::{SMatrix, SVector};
 }

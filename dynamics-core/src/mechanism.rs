@@ -18,6 +18,10 @@ pub trait Mechanism {
     const BODY_NAMES: &'static [&'static str];
     /// The limits, one entry per velocity coordinate, in the order of `v`.
     const LIMITS: &'static [JointLimits];
+    /// The inertial parameters `π`, in their order in [`Regressor`](crate::Regressor); empty without one.
+    const PARAMETER_NAMES: &'static [&'static str] = &[];
+    /// The base parameters `π_b`, in their order in [`BaseRegressor`](crate::BaseRegressor); empty without one.
+    const BASE_PARAMETER_NAMES: &'static [&'static str] = &[];
     /// The operations each method takes; on a robot with parameters, after `prepare`. Of a method so long that it
     /// recurses over a table of links, an estimate, as its documentation says; all others are counted.
     const COST: Costs;
@@ -98,10 +102,14 @@ impl fmt::Display for Cost {
 pub struct Costs {
     /// Of [`mass_matrix`](crate::Dynamics::mass_matrix).
     pub mass_matrix: Cost,
+    /// Of [`inverse_mass_matrix`](crate::Dynamics::inverse_mass_matrix).
+    pub inverse_mass_matrix: Cost,
     /// Of [`coriolis_matrix`](crate::Dynamics::coriolis_matrix).
     pub coriolis_matrix: Cost,
     /// Of [`gravity_forces`](crate::Dynamics::gravity_forces).
     pub gravity_forces: Cost,
+    /// Of [`passive_forces`](crate::Dynamics::passive_forces).
+    pub passive_forces: Cost,
     /// Of [`bias_forces`](crate::Dynamics::bias_forces).
     pub bias_forces: Cost,
     /// Of [`inverse_dynamics`](crate::Dynamics::inverse_dynamics).
@@ -112,6 +120,8 @@ pub struct Costs {
     pub kinetic_energy: Cost,
     /// Of [`potential_energy`](crate::Dynamics::potential_energy).
     pub potential_energy: Cost,
+    /// Of [`elastic_energy`](crate::Dynamics::elastic_energy).
+    pub elastic_energy: Cost,
     /// Of [`lagrangian`](crate::Dynamics::lagrangian).
     pub lagrangian: Cost,
     /// Of [`equations_of_motion`](crate::Dynamics::equations_of_motion).
@@ -120,6 +130,24 @@ pub struct Costs {
     pub inverse_dynamics_derivatives: Cost,
     /// Of [`forward_dynamics_derivatives`](crate::DynamicsDerivatives::forward_dynamics_derivatives).
     pub forward_dynamics_derivatives: Cost,
+    /// Of [`total_mass`](crate::CentroidalDynamics::total_mass).
+    pub total_mass: Cost,
+    /// Of [`center_of_mass`](crate::CentroidalDynamics::center_of_mass).
+    pub center_of_mass: Cost,
+    /// Of [`center_of_mass_jacobian`](crate::CentroidalDynamics::center_of_mass_jacobian).
+    pub center_of_mass_jacobian: Cost,
+    /// Of [`centroidal_momentum`](crate::CentroidalDynamics::centroidal_momentum).
+    pub centroidal_momentum: Cost,
+    /// Of [`centroidal_momentum_matrix`](crate::CentroidalDynamics::centroidal_momentum_matrix).
+    pub centroidal_momentum_matrix: Cost,
+    /// Of [`regressor`](crate::Regressor::regressor).
+    pub regressor: Cost,
+    /// Of [`inertial_parameters`](crate::Regressor::inertial_parameters).
+    pub inertial_parameters: Cost,
+    /// Of [`base_regressor`](crate::BaseRegressor::base_regressor).
+    pub base_regressor: Cost,
+    /// Of [`base_parameters`](crate::BaseRegressor::base_parameters).
+    pub base_parameters: Cost,
     /// Of `prepare`, the work that depends on parameters alone.
     pub prepare: Cost,
 }
@@ -128,17 +156,29 @@ impl Costs {
     /// No operations anywhere.
     pub const ZERO: Self = Self {
         mass_matrix: Cost::ZERO,
+        inverse_mass_matrix: Cost::ZERO,
         coriolis_matrix: Cost::ZERO,
         gravity_forces: Cost::ZERO,
+        passive_forces: Cost::ZERO,
         bias_forces: Cost::ZERO,
         inverse_dynamics: Cost::ZERO,
         forward_dynamics: Cost::ZERO,
         kinetic_energy: Cost::ZERO,
         potential_energy: Cost::ZERO,
+        elastic_energy: Cost::ZERO,
         lagrangian: Cost::ZERO,
         equations_of_motion: Cost::ZERO,
         inverse_dynamics_derivatives: Cost::ZERO,
         forward_dynamics_derivatives: Cost::ZERO,
+        total_mass: Cost::ZERO,
+        center_of_mass: Cost::ZERO,
+        center_of_mass_jacobian: Cost::ZERO,
+        centroidal_momentum: Cost::ZERO,
+        centroidal_momentum_matrix: Cost::ZERO,
+        regressor: Cost::ZERO,
+        inertial_parameters: Cost::ZERO,
+        base_regressor: Cost::ZERO,
+        base_parameters: Cost::ZERO,
         prepare: Cost::ZERO,
     };
 }

@@ -99,6 +99,8 @@ const COMMON: &[&str] = &[
     "IntoFuture",
     // The run time
     "ArrayStorage",
+    "BaseRegressor",
+    "CentroidalDynamics",
     "Configuration",
     "Cost",
     "Costs",
@@ -118,6 +120,7 @@ const COMMON: &[&str] = &[
     "Mechanism",
     "One",
     "Pose",
+    "Regressor",
     "Rk4",
     "SMatrix",
     "SVector",
