@@ -8,7 +8,7 @@ use core::ops::Mul;
 use nalgebra::{SMatrix, SVector};
 
 use crate::mechanism::{FrameCosts, Mechanism};
-use crate::product::product;
+use crate::product::{product, transposed_product};
 use crate::scalar::Scalar;
 
 /// A frame fixed to a body of the robot `R`. Implemented by generated code on zero-sized types.
@@ -29,6 +29,12 @@ pub trait Frame<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
 
     /// The Jacobian in world axes, 6×NV: `J·v` is the velocity of the frame's origin, then the angular velocity.
     fn world_jacobian(robot: &R, q: &SVector<T, NQ>) -> SMatrix<T, 6, NV>;
+
+    /// The twist `V = J·v` of the frame relative to the world, expressed in the frame itself, 6.
+    #[inline]
+    fn velocity(robot: &R, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, 6> {
+        product(&Self::jacobian(robot, q), v)
+    }
 }
 
 /// The kinematics of every robot: one method per question, the frame as its type argument.
@@ -59,14 +65,75 @@ pub trait Kinematics<T: Scalar, const NQ: usize, const NV: usize> {
         F::world_jacobian(self, q)
     }
 
-    /// The body velocity `J(q)·v` of `F`: m/s, then rad/s, expressed in `F`.
-    #[inline]
+    /// The body velocity `V = J(q)·v` of `F`: m/s, then rad/s, expressed in `F`.
+    #[inline(always)]
     fn velocity<F: Frame<Self, T, NQ, NV>>(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, 6> {
-        product(&F::jacobian(self, q), v)
+        F::velocity(self, q, v)
+    }
+
+    /// The velocity of the origin of `F` in m/s, then the angular velocity of `F` in rad/s, in world axes.
+    ///
+    /// That is the product of [`world_jacobian`](Self::world_jacobian) and `v`.
+    #[inline]
+    fn world_velocity<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        in_world(&F::pose(self, q), &F::velocity(self, q, v))
+    }
+
+    /// The joint forces `Jᵀ·w` of a wrench `w` on the body of `F`: a force in N that acts at the origin of `F`, then
+    /// a moment in N·m, both in the axes of `F`.
+    ///
+    /// They are what the wrench puts into the joints, so inverse dynamics needs that much less and forward dynamics
+    /// has that much more; those of several wrenches, on the same body or on others, are added up.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// # use dynamics_core::prelude::*;
+    /// # fn hold<R, Hand>(robot: &R, q: &SVector<f64, 7>, v: &SVector<f64, 7>, a: &SVector<f64, 7>)
+    /// # where R: Dynamics<f64, 7, 7> + Mechanism, Hand: Frame<R, f64, 7, 7> {
+    /// // A rope pulls the hand down, with ten newtons.
+    /// let pull = SVector::from([0.0, 0.0, -10.0, 0.0, 0.0, 0.0]);
+    /// let external = robot.world_external_forces::<Hand>(q, &pull);
+    /// let tau = robot.inverse_dynamics(q, v, a) - external;
+    /// let back = robot.forward_dynamics(q, v, &(tau + external)); // = a
+    /// # let _ = back;
+    /// # }
+    /// ```
+    #[inline]
+    fn external_forces<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        wrench: &SVector<T, 6>,
+    ) -> SVector<T, NV> {
+        transposed_product(&F::jacobian(self, q), wrench)
+    }
+
+    /// The joint forces of a wrench on the body of `F`, as [`external_forces`](Self::external_forces), but in world
+    /// axes: a force that acts at the origin of `F`, then a moment about this origin.
+    #[inline]
+    fn world_external_forces<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        wrench: &SVector<T, 6>,
+    ) -> SVector<T, NV> {
+        transposed_product(&F::world_jacobian(self, q), wrench)
     }
 }
 
 impl<R: Mechanism + ?Sized, T: Scalar, const NQ: usize, const NV: usize> Kinematics<T, NQ, NV> for R {}
+
+/// A six-vector, from the axes of a frame to those of the world.
+#[inline]
+fn in_world<T: Scalar>(pose: &Pose<T>, x: &SVector<T, 6>) -> SVector<T, 6> {
+    let [[a, b, c, l, m, n]] = x.data.0;
+    let [[a, b, c]] = pose.transform_vector(&SVector::from([a, b, c])).data.0;
+    let [[l, m, n]] = pose.transform_vector(&SVector::from([l, m, n])).data.0;
+    SVector::from([a, b, c, l, m, n])
+}
 
 /// A rigid placement: `x_world = rotation·x_frame + translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,6 +1,6 @@
 //! The matrix product, without the panic paths nalgebra's leaves where the compiler saves space.
 
-use nalgebra::{ArrayStorage, SMatrix};
+use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::scalar::Scalar;
 
@@ -21,6 +21,17 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
+/// `Aᵀ·b`, C.
+#[inline]
+pub(crate) fn transposed_product<T: Scalar, const R: usize, const C: usize>(
+    a: &SMatrix<T, R, C>,
+    b: &SVector<T, R>,
+) -> SVector<T, C> {
+    let [b] = &b.data.0;
+    let dot = |a: &[T; R]| a.iter().zip(b).fold(T::zero(), |sum, (a, b)| a.mul_add(*b, sum));
+    SMatrix::from_array_storage(ArrayStorage([a.data.0.each_ref().map(dot)]))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -30,5 +41,7 @@ mod tests {
         let a = SMatrix::<f64, 2, 3>::from([[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
         let b = SMatrix::<f64, 3, 2>::from([[1.0, -1.0, 2.0], [0.5, 3.0, -2.0]]);
         assert_eq!(product(&a, &b), a * b);
+        let c = SVector::from([7.0, -1.0]);
+        assert_eq!(transposed_product(&a, &c), a.transpose() * c);
     }
 }

@@ -3,6 +3,7 @@
 
 mod common;
 
+use common::free_box::{Corner, FreeBox};
 use common::{Bob, DoublePendulum, Pendulum, Tool0};
 use dynamics_core::prelude::*;
 
@@ -73,4 +74,66 @@ fn poses_compose_and_invert() {
     assert!((a.inverse().transform_point(&a.transform_point(&x)) - x).norm() < 1e-14);
     assert_eq!(Pose::identity() * a, a);
     assert!((a.transform_vector(&x) - a.rotation * x).norm() < 1e-14);
+}
+
+/// A box on its way.
+fn flight() -> (FreeBox, SVector<f64, 7>, SVector<f64, 6>) {
+    let q = SVector::from([0.2, -0.3, 1.0, 0.1, -0.5, 0.7, 0.5]);
+    (FreeBox::tossed(), q, SVector::from([1.0, -2.0, 4.0, 2.0, 5.0, -3.0]))
+}
+
+#[test]
+fn velocities_are_jacobians_times_speeds() {
+    let (robot, q, v) = flight();
+    assert!((robot.velocity::<Corner>(&q, &v) - robot.jacobian::<Corner>(&q) * v).amax() < 1e-14);
+    assert!((robot.world_velocity::<Corner>(&q, &v) - robot.world_jacobian::<Corner>(&q) * v).amax() < 1e-14);
+    let (robot, q, v) = (DoublePendulum, SVector::from([0.7, -1.1]), SVector::from([2.0, -3.0]));
+    let world_velocity: SVector<f64, 6> = robot.world_velocity::<Tool0>(&q, &v);
+    assert!((world_velocity - robot.world_jacobian::<Tool0>(&q) * v).amax() < 1e-14);
+}
+
+#[test]
+fn external_forces_do_the_work_of_the_wrench() {
+    let ((robot, q, v), wrench) = (flight(), SVector::from([1.0, -3.0, 2.0, 0.5, 0.3, -0.7]));
+    let power = robot.external_forces::<Corner>(&q, &wrench).dot(&v);
+    assert!((power - wrench.dot(&robot.velocity::<Corner>(&q, &v))).abs() < 1e-13);
+    let power = robot.world_external_forces::<Corner>(&q, &wrench).dot(&v);
+    assert!((power - wrench.dot(&robot.world_velocity::<Corner>(&q, &v))).abs() < 1e-13);
+}
+
+/// The double pendulum's unit point masses at the elbow and the tool: pushed up by their weight they hang on nothing.
+#[test]
+fn external_forces_of_several_bodies_add_up() {
+    /// The end of the first rod.
+    struct Elbow;
+    impl Frame<DoublePendulum, f64, 2, 2> for Elbow {
+        const NAME: &'static str = "elbow";
+
+        fn pose(_robot: &DoublePendulum, q: &SVector<f64, 2>) -> Pose<f64> {
+            let (sine, cosine) = q.x.sin_cos();
+            let rotation = SMatrix::from([[1.0, 0.0, 0.0], [0.0, cosine, sine], [0.0, -sine, cosine]]);
+            Pose { rotation, translation: SVector::from([0.0, sine, -cosine]) }
+        }
+        fn jacobian(_robot: &DoublePendulum, _q: &SVector<f64, 2>) -> SMatrix<f64, 6, 2> {
+            SMatrix::from([[0.0, 1.0, 0.0, 1.0, 0.0, 0.0], [0.0; 6]])
+        }
+        fn world_jacobian(_robot: &DoublePendulum, q: &SVector<f64, 2>) -> SMatrix<f64, 6, 2> {
+            let (sine, cosine) = q.x.sin_cos();
+            SMatrix::from([[0.0, cosine, sine, 1.0, 0.0, 0.0], [0.0; 6]])
+        }
+    }
+    let (robot, q) = (DoublePendulum, SVector::from([0.7, -1.1]));
+    let lift = SVector::from([0.0, 0.0, common::G, 0.0, 0.0, 0.0]);
+    let external: SVector<f64, 2> =
+        robot.world_external_forces::<Elbow>(&q, &lift) + robot.world_external_forces::<Tool0>(&q, &lift);
+    let o = SVector::zeros();
+    assert!((robot.inverse_dynamics(&q, &o, &o) - external).amax() < 1e-14);
+    assert!(robot.forward_dynamics(&q, &o, &external).amax() < 1e-14);
+
+    // In the frame's own axes the same force has other components.
+    let turned = robot.pose::<Tool0>(&q).inverse().transform_vector(&SVector::from([0.0, 0.0, common::G]));
+    let in_frame = SVector::from([turned.x, turned.y, turned.z, 0.0, 0.0, 0.0]);
+    let (own, world) =
+        (robot.external_forces::<Tool0>(&q, &in_frame), robot.world_external_forces::<Tool0>(&q, &lift));
+    assert!((own - world).amax() < 1e-14);
 }
