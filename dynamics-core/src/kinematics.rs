@@ -35,6 +35,9 @@ pub trait Frame<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
     fn velocity(robot: &R, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, 6> {
         product(&Self::jacobian(robot, q), v)
     }
+
+    /// The rate `V̇ = J·a + J̇·v` of the components of that twist, 6.
+    fn acceleration(robot: &R, q: &SVector<T, NQ>, v: &SVector<T, NV>, a: &SVector<T, NV>) -> SVector<T, 6>;
 }
 
 /// The kinematics of every robot: one method per question, the frame as its type argument.
@@ -83,6 +86,57 @@ pub trait Kinematics<T: Scalar, const NQ: usize, const NV: usize> {
         in_world(&F::pose(self, q), &F::velocity(self, q, v))
     }
 
+    /// The body acceleration `V̇ = J·a + J̇·v` of `F`: the rate of the components of [`velocity`](Self::velocity), in
+    /// m/s², then rad/s², expressed in `F`. Gravity has no part in it.
+    ///
+    /// Its linear half is no acceleration of a point: that of the origin is `V̇_linear + ω × V_linear`, which
+    /// [`world_acceleration`](Self::world_acceleration) gives in world axes.
+    #[inline(always)]
+    fn acceleration<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        F::acceleration(self, q, v, a)
+    }
+
+    /// The acceleration of the origin of `F` in m/s², then the angular acceleration of `F` in rad/s², in world axes:
+    /// the rate of [`world_velocity`](Self::world_velocity).
+    ///
+    /// What an accelerometer at the origin feels is this less the acceleration of free fall.
+    #[inline]
+    fn world_acceleration<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        let of_origin = of_origin(&F::velocity(self, q, v), &F::acceleration(self, q, v, a));
+        in_world(&F::pose(self, q), &of_origin)
+    }
+
+    /// The bias acceleration `J̇·v` of `F`, expressed in `F`: its [`acceleration`](Self::acceleration) without `a`.
+    #[inline]
+    fn bias_acceleration<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        F::acceleration(self, q, v, &SVector::zeros())
+    }
+
+    /// The bias acceleration `J̇·v` in world axes, where `J` is the [`world_jacobian`](Self::world_jacobian) of `F`:
+    /// its [`world_acceleration`](Self::world_acceleration) without `a`.
+    #[inline]
+    fn world_bias_acceleration<F: Frame<Self, T, NQ, NV>>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        self.world_acceleration::<F>(q, v, &SVector::zeros())
+    }
+
     /// The joint forces `Jᵀ·w` of a wrench `w` on the body of `F`: a force in N that acts at the origin of `F`, then
     /// a moment in N·m, both in the axes of `F`.
     ///
@@ -125,6 +179,13 @@ pub trait Kinematics<T: Scalar, const NQ: usize, const NV: usize> {
 }
 
 impl<R: Mechanism + ?Sized, T: Scalar, const NQ: usize, const NV: usize> Kinematics<T, NQ, NV> for R {}
+
+/// The acceleration of the origin, `V̇ + ω × V` in the linear half, from the twist and the rate of its components.
+#[inline]
+fn of_origin<T: Scalar>(velocity: &SVector<T, 6>, rate: &SVector<T, 6>) -> SVector<T, 6> {
+    let ([[x, y, z, l, m, n]], [[a, b, c, d, e, f]]) = (velocity.data.0, rate.data.0);
+    SVector::from([a + m * z - n * y, b + n * x - l * z, c + l * y - m * x, d, e, f])
+}
 
 /// A six-vector, from the axes of a frame to those of the world.
 #[inline]

@@ -192,11 +192,21 @@ pub struct FrameCosts {
     pub jacobian: Cost,
     /// Of `world_jacobian`.
     pub world_jacobian: Cost,
+    /// Of `velocity`.
+    pub velocity: Cost,
+    /// Of `acceleration`.
+    pub acceleration: Cost,
 }
 
 impl FrameCosts {
     /// No operations.
-    pub const ZERO: Self = Self { pose: Cost::ZERO, jacobian: Cost::ZERO, world_jacobian: Cost::ZERO };
+    pub const ZERO: Self = Self {
+        pose: Cost::ZERO,
+        jacobian: Cost::ZERO,
+        world_jacobian: Cost::ZERO,
+        velocity: Cost::ZERO,
+        acceleration: Cost::ZERO,
+    };
 }
 
 #[cfg(test)]
@@ -215,5 +225,6 @@ mod tests {
     #[test]
     fn zero_is_the_default() {
         assert_eq!(Costs::ZERO, Costs::default());
+        assert_eq!(FrameCosts::ZERO, FrameCosts::default());
     }
 }

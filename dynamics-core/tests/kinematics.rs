@@ -121,6 +121,14 @@ fn external_forces_of_several_bodies_add_up() {
             let (sine, cosine) = q.x.sin_cos();
             SMatrix::from([[0.0, cosine, sine, 1.0, 0.0, 0.0], [0.0; 6]])
         }
+        fn acceleration(
+            robot: &DoublePendulum,
+            q: &SVector<f64, 2>,
+            _v: &SVector<f64, 2>,
+            a: &SVector<f64, 2>,
+        ) -> SVector<f64, 6> {
+            Self::jacobian(robot, q) * a
+        }
     }
     let (robot, q) = (DoublePendulum, SVector::from([0.7, -1.1]));
     let lift = SVector::from([0.0, 0.0, common::G, 0.0, 0.0, 0.0]);
@@ -136,4 +144,52 @@ fn external_forces_of_several_bodies_add_up() {
     let (own, world) =
         (robot.external_forces::<Tool0>(&q, &in_frame), robot.world_external_forces::<Tool0>(&q, &lift));
     assert!((own - world).amax() < 1e-14);
+}
+
+/// Accelerations, against central differences of velocities along the motion, and in their parts.
+fn accelerations_are_rates<F, R, const NQ: usize, const NV: usize>(
+    robot: &R,
+    q: &SVector<f64, NQ>,
+    v: &SVector<f64, NV>,
+    a: &SVector<f64, NV>,
+) where
+    R: Mechanism + Configuration<f64, NQ, NV>,
+    F: Frame<R, f64, NQ, NV>,
+{
+    let h = 1e-5;
+    let after = |t: f64| State::new(robot.integrate(q, &(v * t + a * (0.5 * t * t))), v + a * t);
+    let (ahead, behind) = (after(h), after(-h));
+    let twists = [ahead, behind].map(|at| robot.velocity::<F>(&at.q, &at.v));
+    let rate = (twists[0] - twists[1]) / (2.0 * h);
+    assert!((robot.acceleration::<F>(q, v, a) - rate).amax() < 1e-7, "{}", F::NAME);
+    let velocities = [ahead, behind].map(|at| robot.world_velocity::<F>(&at.q, &at.v));
+    let rate = (velocities[0] - velocities[1]) / (2.0 * h);
+    assert!((robot.world_acceleration::<F>(q, v, a) - rate).amax() < 1e-7, "{}", F::NAME);
+
+    // What is left without `a`, and what `a` adds.
+    let own = robot.bias_acceleration::<F>(q, v) + robot.jacobian::<F>(q) * a;
+    assert!((robot.acceleration::<F>(q, v, a) - own).amax() < 1e-13);
+    let world = robot.world_bias_acceleration::<F>(q, v) + robot.world_jacobian::<F>(q) * a;
+    assert!((robot.world_acceleration::<F>(q, v, a) - world).amax() < 1e-13);
+}
+
+#[test]
+fn accelerations_are_the_rates_of_velocities() {
+    let robot = Pendulum { m: 2.0, l: 0.5, damping: 0.0 };
+    accelerations_are_rates::<Bob, _, 1, 1>(&robot, &[0.3].into(), &[2.0].into(), &[-1.0].into());
+    let (q, v, a) = ([0.7, -1.1].into(), [2.0, -3.0].into(), [0.4, 1.5].into());
+    accelerations_are_rates::<Tool0, _, 2, 2>(&DoublePendulum, &q, &v, &a);
+    let ((robot, q, v), a) = (flight(), SVector::from([0.3, 0.2, -1.0, 2.0, -0.5, 0.7]));
+    accelerations_are_rates::<Corner, _, 7, 6>(&robot, &q, &v, &a);
+}
+
+#[test]
+fn what_falls_freely_accelerates_by_gravity() {
+    let (robot, q, _) = flight();
+    // Released from rest a box does not begin to turn, so that its corner falls as its centre of mass does.
+    let at_rest = SVector::zeros();
+    let a = robot.forward_dynamics(&q, &at_rest, &SVector::zeros());
+    let found = robot.world_acceleration::<Corner>(&q, &at_rest, &a);
+    assert!((found.fixed_rows::<3>(0) - robot.gravity).amax() < 1e-13);
+    assert!(found.fixed_rows::<3>(3).amax() < 1e-13);
 }

@@ -185,4 +185,12 @@ impl Frame<FreeBox, f64, 7, 6> for Corner {
         let rotation = *FreeBox::rotation(q).matrix();
         blocks(rotation, -rotation * Self::offset().cross_matrix(), Matrix3::zeros(), rotation)
     }
+    fn acceleration(
+        robot: &FreeBox,
+        q: &SVector<f64, 7>,
+        _v: &SVector<f64, 6>,
+        a: &SVector<f64, 6>,
+    ) -> SVector<f64, 6> {
+        Self::jacobian(robot, q) * a
+    }
 }

@@ -105,6 +105,19 @@ impl<T: Scalar> Frame<Pendulum<T>, T, 1, 1> for Bob {
         let (s, c) = q0.sin_cos();
         vector([o, robot.l * c, robot.l * s, i, o, o])
     }
+    fn velocity(robot: &Pendulum<T>, _q: &SVector<T, 1>, v: &SVector<T, 1>) -> SVector<T, 6> {
+        let (o, [[v0]]) = (T::zero(), v.data.0);
+        vector([o, robot.l * v0, o, v0, o, o])
+    }
+    fn acceleration(
+        robot: &Pendulum<T>,
+        _q: &SVector<T, 1>,
+        _v: &SVector<T, 1>,
+        a: &SVector<T, 1>,
+    ) -> SVector<T, 6> {
+        let (o, [[a0]]) = (T::zero(), a.data.0);
+        vector([o, robot.l * a0, o, a0, o, o])
+    }
 }
 
 /// Two unit point masses on two unit rods about x; the second angle is relative. A unit struct, for every scalar.
@@ -237,6 +250,17 @@ impl<T: Scalar> Frame<DoublePendulum, T, 2, 2> for Tool0 {
         let [[q0, q1]] = q.data.0;
         let ((s1, c1), (s, c)) = (q0.sin_cos(), (q0 + q1).sin_cos());
         columns([[o, c1 + c, s1 + s, i, o, o], [o, c, s, i, o, o]])
+    }
+    fn acceleration(
+        _robot: &DoublePendulum,
+        q: &SVector<T, 2>,
+        v: &SVector<T, 2>,
+        a: &SVector<T, 2>,
+    ) -> SVector<T, 6> {
+        let ([[_, q1]], [[v0, v1]], [[a0, a1]]) = (q.data.0, v.data.0, a.data.0);
+        let ((s2, c2), o) = (q1.sin_cos(), T::zero());
+        let (y, z) = ((T::one() + c2) * a0 + a1 - s2 * v1 * v0, -s2 * a0 - c2 * v1 * v0);
+        vector([o, y, z, a0 + a1, o, o])
     }
 }
 
