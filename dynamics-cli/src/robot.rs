@@ -124,8 +124,10 @@ impl<'g> Robot<'g> {
     fn compute(&self, method: Method, state: &State) -> Option<Vec<f64>> {
         match self.plan(method)? {
             Plan::StraightLine { program, .. } => Some(program.evaluate(|symbol| state.read(symbol), &[])),
-            Plan::FromInverse { .. } => self.derivatives_from_inverse(state),
-            Plan::Table { .. } => self.plain(method, state),
+            Plan::FromInverse { .. } if method == Method::ForwardDynamicsDerivatives => {
+                self.derivatives_from_inverse(state)
+            }
+            Plan::FromInverse { .. } | Plan::Table { .. } => self.plain(method, state),
         }
     }
 
@@ -152,6 +154,17 @@ impl<'g> Robot<'g> {
         let (oracle, State { q, v, a, tau }) = (Oracle::new(&self.read.tree), state);
         Some(match method {
             Method::MassMatrix => oracle.mass_matrix(q).concat(),
+            Method::InverseMassMatrix => {
+                let identity =
+                    (0..v.len()).map(|i| (0..v.len()).map(|j| f64::from(u8::from(i == j))).collect());
+                Cholesky::of(&oracle.mass_matrix(q))?.solve_columns(&identity.collect::<Rows>()).concat()
+            }
+            Method::PassiveForces => oracle.passive_forces(q, v),
+            Method::ElasticEnergy => vec![oracle.elastic_energy(q)],
+            Method::CenterOfMass => oracle.center_of_mass(q),
+            Method::CenterOfMassJacobian => oracle.center_of_mass_jacobian(q).concat(),
+            Method::CentroidalMomentum => oracle.centroidal_momentum(q, v),
+            Method::CentroidalMomentumMatrix => oracle.centroidal_momentum_matrix(q).concat(),
             Method::CoriolisMatrix => oracle.coriolis_matrix(q, v).concat(),
             Method::GravityForces => oracle.gravity_forces(q),
             Method::BiasForces => oracle.bias_forces(q, v),
@@ -168,9 +181,7 @@ impl<'g> Robot<'g> {
                 let found = oracle.forward_dynamics_derivatives(q, v, tau)?;
                 [found.da_dq, found.da_dv, found.da_dtau].concat().concat()
             }
-            Method::EquationsOfMotion | Method::Pose(_) | Method::Jacobian(_) | Method::WorldJacobian(_) => {
-                return None;
-            }
+            _ => return None,
         })
     }
 }

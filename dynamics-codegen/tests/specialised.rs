@@ -17,30 +17,7 @@ fn constant<'g>(x: f64) -> Expr<'g> {
 
 /// All methods of a robot with so many frames.
 fn all_methods(frames: usize) -> Vec<Method> {
-    let of_frame = |k| {
-        [
-            Method::Pose(k),
-            Method::Jacobian(k),
-            Method::WorldJacobian(k),
-            Method::Velocity(k),
-            Method::Acceleration(k),
-        ]
-    };
-    let more = [
-        Method::PassiveForces,
-        Method::InverseMassMatrix,
-        Method::ElasticEnergy,
-        Method::CenterOfMass,
-        Method::CenterOfMassJacobian,
-        Method::CentroidalMomentum,
-        Method::CentroidalMomentumMatrix,
-        Method::TotalMass,
-        Method::Regressor,
-        Method::InertialParameters,
-        Method::BaseRegressor,
-        Method::BaseParameters,
-    ];
-    Method::OF_ROBOT.into_iter().chain(more).chain((0..frames).flat_map(of_frame)).collect()
+    Method::OF_ROBOT.into_iter().chain((0..frames).flat_map(Method::of_frame)).collect()
 }
 
 fn model_of<'g>(tree: &Tree<f64>, seed: u64) -> Model<'g> {
@@ -49,6 +26,7 @@ fn model_of<'g>(tree: &Tree<f64>, seed: u64) -> Model<'g> {
         field_type: FieldType::Unused,
         parameters: vec![],
         joints: vec![],
+        actuated: (0..tree.dof()).collect(),
         links: (0..tree.links.len())
             .map(|link| LinkInfo { joint: format!("joint{link}"), body: Some(link) })
             .collect(),

@@ -20,7 +20,7 @@ pub use crate::state::{Configuration, State};
 pub use manifold::{
     ball_tangent_rate, difference_ball, difference_free, free_tangent_rate, integrate_ball, integrate_free,
 };
-pub use solve::{factor, forward_from_inverse, solve_columns};
+pub use solve::{factor, forward_from_inverse, inverse_of, solve_columns};
 
 /// `(sin x, cos x)`.
 #[inline(always)]

@@ -9,7 +9,7 @@ use super::energy;
 use super::factor::Factor;
 use super::frames::{self, Axes};
 use super::gauge::regauge;
-pub use super::method::{Argument, Block, Equation, Input, Inputs, Method, Shape};
+pub use super::method::{Argument, Block, Equation, Input, Inputs, Method, Shape, Trait};
 use super::normal::NormalTree;
 use super::passive;
 use super::regressor::{Regressed, RegressorColumn};

@@ -67,25 +67,91 @@ pub enum Method {
 }
 
 impl Method {
-    /// The methods that every robot has.
-    pub const OF_ROBOT: [Method; 12] = [
+    /// The methods of robots, trait by trait.
+    pub const OF_ROBOT: [Method; 24] = [
         Method::MassMatrix,
+        Method::InverseMassMatrix,
         Method::CoriolisMatrix,
         Method::GravityForces,
+        Method::PassiveForces,
         Method::BiasForces,
         Method::InverseDynamics,
         Method::ForwardDynamics,
         Method::KineticEnergy,
         Method::PotentialEnergy,
+        Method::ElasticEnergy,
         Method::Lagrangian,
         Method::EquationsOfMotion,
         Method::InverseDynamicsDerivatives,
         Method::ForwardDynamicsDerivatives,
+        Method::TotalMass,
+        Method::CenterOfMass,
+        Method::CenterOfMassJacobian,
+        Method::CentroidalMomentum,
+        Method::CentroidalMomentumMatrix,
+        Method::Regressor,
+        Method::InertialParameters,
+        Method::BaseRegressor,
+        Method::BaseParameters,
     ];
 
-    /// The methods of the trait of derivatives.
-    pub const OF_DERIVATIVES: [Method; 2] =
-        [Method::InverseDynamicsDerivatives, Method::ForwardDynamicsDerivatives];
+    /// The methods of a frame.
+    pub fn of_frame(frame: usize) -> [Method; 5] {
+        [
+            Method::Pose(frame),
+            Method::Jacobian(frame),
+            Method::WorldJacobian(frame),
+            Method::Velocity(frame),
+            Method::Acceleration(frame),
+        ]
+    }
+
+    /// The trait that has the method.
+    pub fn trait_(self) -> Trait {
+        match self {
+            Method::MassMatrix
+            | Method::InverseMassMatrix
+            | Method::CoriolisMatrix
+            | Method::GravityForces
+            | Method::PassiveForces
+            | Method::BiasForces
+            | Method::InverseDynamics
+            | Method::ForwardDynamics
+            | Method::KineticEnergy
+            | Method::PotentialEnergy
+            | Method::ElasticEnergy
+            | Method::Lagrangian
+            | Method::EquationsOfMotion => Trait::Dynamics,
+            Method::InverseDynamicsDerivatives | Method::ForwardDynamicsDerivatives => {
+                Trait::DynamicsDerivatives
+            }
+            Method::TotalMass
+            | Method::CenterOfMass
+            | Method::CenterOfMassJacobian
+            | Method::CentroidalMomentum
+            | Method::CentroidalMomentumMatrix => Trait::CentroidalDynamics,
+            Method::Regressor | Method::InertialParameters => Trait::Regressor,
+            Method::BaseRegressor | Method::BaseParameters => Trait::BaseRegressor,
+            Method::Pose(_)
+            | Method::Jacobian(_)
+            | Method::WorldJacobian(_)
+            | Method::Velocity(_)
+            | Method::Acceleration(_) => Trait::Frame,
+        }
+    }
+
+    /// Whether the trait has it by default where a robot has none of its own.
+    pub fn is_provided(self) -> bool {
+        matches!(
+            self,
+            Method::InverseMassMatrix
+                | Method::PassiveForces
+                | Method::ElasticEnergy
+                | Method::EquationsOfMotion
+                | Method::CenterOfMassJacobian
+                | Method::CentroidalMomentum
+        )
+    }
 
     /// The method's name in the trait.
     pub fn name(self) -> &'static str {
@@ -164,6 +230,46 @@ impl Method {
             | Method::BaseRegressor
             | Method::Acceleration(_) => &[Q, V, A],
             Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+        }
+    }
+}
+
+/// A trait of generated methods.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Trait {
+    /// The equations of motion.
+    Dynamics,
+    /// Their derivatives.
+    DynamicsDerivatives,
+    /// The robot as a whole.
+    CentroidalDynamics,
+    /// Forces by parameters.
+    Regressor,
+    /// Forces by the parameters that can be told apart.
+    BaseRegressor,
+    /// The kinematics of a frame.
+    Frame,
+}
+
+impl Trait {
+    /// Those of a robot.
+    pub const OF_ROBOT: [Trait; 5] = [
+        Trait::Dynamics,
+        Trait::DynamicsDerivatives,
+        Trait::CentroidalDynamics,
+        Trait::Regressor,
+        Trait::BaseRegressor,
+    ];
+
+    /// The name in the run time.
+    pub fn name(self) -> &'static str {
+        match self {
+            Trait::Dynamics => "Dynamics",
+            Trait::DynamicsDerivatives => "DynamicsDerivatives",
+            Trait::CentroidalDynamics => "CentroidalDynamics",
+            Trait::Regressor => "Regressor",
+            Trait::BaseRegressor => "BaseRegressor",
+            Trait::Frame => "Frame",
         }
     }
 }

@@ -36,8 +36,8 @@ pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) ->
     let tree = tree.filter(|_| diags.len() == before)?;
     physics::check_links(spec, &topology, graph, &tree, diags);
     let links = link_infos(spec, &tree);
-    let model =
-        Model { name: spec.ident.to_string(), field_type: field_type?, parameters, joints, links, tree };
+    let (name, actuated) = (spec.ident.to_string(), (0..tree.dof()).collect());
+    let model = Model { name, field_type: field_type?, parameters, joints, actuated, links, tree };
     (diags.len() == before).then_some(model)
 }
 

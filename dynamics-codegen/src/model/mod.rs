@@ -99,6 +99,8 @@ pub struct Model<'g> {
     pub parameters: Vec<Parameter>,
     /// The moving joints, in the order of their coordinates.
     pub joints: Vec<JointInfo>,
+    /// The speeds that have an input, in order.
+    pub actuated: Vec<usize>,
     /// The links, as the tree has them.
     pub links: Vec<LinkInfo>,
     /// The kinematics and the masses. Its frames are the bodies, in order of declaration.

@@ -1,7 +1,7 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
 use super::parameters::Normaliser;
-use super::plan::{Form, Plan, Plans};
+use super::plan::{Form, Plan, Plans, calls};
 use super::schedule::schedule;
 use super::share::share;
 use super::table;
@@ -102,7 +102,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
             }
             Form::FromInverse => {
                 let ancestors = plan.ancestors.clone();
-                let cost = cost_from_inverse(&ancestors, &compiled);
+                let cost = cost_from_inverse(method, &ancestors, &compiled);
                 (Plan::FromInverse { ancestors }, cost)
             }
             Form::Table => {
@@ -126,21 +126,20 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     Compiled { graph, inputs, table, methods: compiled, companion, parameter_names, base_parameter_names }
 }
 
-/// What the loops of the run time cost, with the two methods that they call.
-fn cost_from_inverse(ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
+/// What the loops of the run time cost, with the methods that they call.
+fn cost_from_inverse(method: Method, ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
     let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
     let n = ancestors.len();
     let pairs: usize = ancestors.iter().map(Vec::len).sum();
     let eliminated: usize = ancestors.iter().flatten().map(|i| i + 1).sum();
-    let columns = 3 * n;
+    let columns = if method == Method::InverseMassMatrix { n } else { 3 * n };
     let mut cost = Cost {
         multiplications: count(pairs + eliminated + columns * (2 * pairs + n)),
         additions: count(eliminated + columns * 2 * pairs),
         divisions: count(n),
         ..Cost::default()
     };
-    let called = [Method::ForwardDynamics, Method::InverseDynamicsDerivatives];
-    for part in compiled.iter().filter(|part| called.contains(&part.method)) {
+    for part in compiled.iter().filter(|part| calls(method).contains(&part.method)) {
         cost = cost + part.cost;
     }
     cost

@@ -7,8 +7,9 @@
 use super::{Cost, Program};
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
-use crate::mechanics::equations::{Block, Method};
-use crate::model::Model;
+use crate::mechanics::equations::{Block, Method, Trait};
+use crate::model::{Model, Passive};
+use crate::symbolic::Expr;
 
 /// The most statements that one method may have.
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
@@ -26,7 +27,8 @@ pub enum Plan<'g> {
         /// The operations.
         program: Program,
     },
-    /// Derivatives of forward dynamics from those of inverse dynamics, by the run time's loops over columns.
+    /// Derivatives of forward dynamics from those of inverse dynamics, and `M⁻¹` from `M`, by the run time's loops
+    /// over columns.
     FromInverse {
         /// The joints between each joint and the base.
         ancestors: Vec<Vec<usize>>,
@@ -75,7 +77,9 @@ impl Plans {
         };
         match method {
             _ if too_long => Form::Table,
-            Method::ForwardDynamicsDerivatives if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE => {
+            Method::ForwardDynamicsDerivatives | Method::InverseMassMatrix
+                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE =>
+            {
                 Form::FromInverse
             }
             _ => Form::StraightLine,
@@ -96,12 +100,11 @@ impl Plans {
             Method::CenterOfMass | Method::CentroidalMomentum => 30 * n,
             Method::CenterOfMassJacobian | Method::CentroidalMomentumMatrix => 50 * n,
             Method::Regressor | Method::BaseRegressor => 50 * pairs,
-            Method::InverseMassMatrix => 4 * pairs + 2 * n * pairs,
             Method::BiasForces | Method::InverseDynamics => 40 * n,
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
             Method::ForwardDynamics => 80 * n,
             // By loops: the two methods it calls have their own forms.
-            Method::ForwardDynamicsDerivatives => 0,
+            Method::ForwardDynamicsDerivatives | Method::InverseMassMatrix => 0,
             Method::Pose(_) => 12 * self.frame_joints / self.frames.max(1),
             Method::Jacobian(_) | Method::WorldJacobian(_) => 16 * self.frame_joints / self.frames.max(1),
             Method::Velocity(_) => 20 * self.frame_joints / self.frames.max(1),
@@ -118,22 +121,51 @@ impl Plans {
     }
 }
 
-/// The methods to compile: those named and what they call, or all.
+/// The methods to compile: those named and what they call, or all that the robot has.
 pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
-    let frames = 0..model.tree.frames.len();
-    let of_frames = frames.flat_map(|k| [Method::Pose(k), Method::Jacobian(k), Method::WorldJacobian(k)]);
-    let by_parts = Plans::of(model).form(Method::ForwardDynamicsDerivatives) == Form::FromInverse;
-    // A frame has all of its kinematics or none.
-    let of_frame = ["pose", "jacobian", "world_jacobian"];
-    let is_wanted = |method: Method| {
-        let names = if of_frame.contains(&method.name()) { &of_frame[..] } else { &[method.name()] };
-        wanted.is_none_or(|wanted| wanted.iter().any(|name| names.contains(name)))
+    let plans = Plans::of(model);
+    let of_frames = (0..model.tree.frames.len()).flat_map(Method::of_frame);
+    // A frame has all of its kinematics or none, and a regressor has its parameters.
+    let together = |method: Method| match method.trait_() {
+        Trait::Frame => Method::of_frame(0).map(Method::name).to_vec(),
+        Trait::Regressor => vec!["regressor", "inertial_parameters"],
+        Trait::BaseRegressor => vec!["base_regressor", "base_parameters"],
+        _ => vec![method.name()],
     };
-    let is_called = |method: &Method| {
-        is_wanted(*method)
-            || (by_parts
-                && matches!(method, Method::ForwardDynamics | Method::InverseDynamicsDerivatives)
-                && is_wanted(Method::ForwardDynamicsDerivatives))
+    let is_wanted = |method: Method| match wanted {
+        Some(wanted) => together(method).iter().any(|name| wanted.contains(name)),
+        None => has_of_itself(method, model),
     };
-    Method::OF_ROBOT.into_iter().chain(of_frames).filter(is_called).collect()
+    let is_called = |method: Method| {
+        let callers = [Method::ForwardDynamicsDerivatives, Method::InverseMassMatrix];
+        let calls = |caller: &Method| calls(*caller).contains(&method) && is_wanted(*caller);
+        callers.iter().filter(|&&caller| plans.form(caller) == Form::FromInverse).any(calls)
+    };
+    let is_too_long = |method: Method| {
+        matches!(method.trait_(), Trait::Regressor | Trait::BaseRegressor)
+            && plans.form(Method::Regressor) == Form::Table
+    };
+    let all = Method::OF_ROBOT.into_iter().chain(of_frames);
+    all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method)).collect()
+}
+
+/// Whether the robot has more to say than the trait's default does.
+fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
+    let any = |acts: fn(&Passive<Expr<'_>>) -> bool| model.tree.links.iter().any(|link| acts(&link.passive));
+    match method {
+        Method::PassiveForces => {
+            any(|p| !(p.damping.is_zero() && p.friction.is_zero() && p.stiffness.is_zero()))
+        }
+        Method::ElasticEnergy => any(|p| !p.stiffness.is_zero()),
+        _ => true,
+    }
+}
+
+/// What a method in the form of loops calls.
+pub(super) fn calls(method: Method) -> &'static [Method] {
+    match method {
+        Method::ForwardDynamicsDerivatives => &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives],
+        Method::InverseMassMatrix => &[Method::MassMatrix],
+        _ => &[],
+    }
 }

@@ -35,6 +35,24 @@ pub fn forward_from_inverse<T: Scalar, const N: usize>(
     }
 }
 
+/// `M⁻¹`, of a matrix with the sparsity of the tree.
+///
+/// # Cost
+///
+/// One factorisation, and N columns solved: see [`solve_columns`].
+#[inline]
+pub fn inverse_of<T: Scalar, const N: usize>(
+    ancestors: &[&[usize]; N],
+    m: &SMatrix<T, N, N>,
+) -> SMatrix<T, N, N> {
+    let mut l = m.data.0;
+    let d_inv = factor(ancestors, &mut l);
+    let mut rows = identity();
+    solve_columns(ancestors, &l, &d_inv, &mut rows);
+    // Symmetric: its rows are its columns.
+    SMatrix::from_array_storage(ArrayStorage(rows))
+}
+
 /// `M = Lᵀ D L` in place: the lower half of `h` leaves as that of L, and `1/D` is returned.
 ///
 /// `M` is symmetric, with the sparsity of the tree: `M[i][j]` is zero unless one of `i`, `j` is the other's

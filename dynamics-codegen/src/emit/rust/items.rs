@@ -6,7 +6,7 @@ use super::body::{Context, Literals};
 use super::methods::{self, Written};
 use super::names::{self, Names};
 use super::{Form, Input, Item};
-use crate::mechanics::equations::{Input as Symbol, Inputs, Method};
+use crate::mechanics::equations::{Input as Symbol, Inputs, Method, Trait};
 use crate::model::names::{frame_type, hides_a_common_name};
 use crate::passes::Sizes;
 use crate::symbolic::{Expr, Op};
@@ -22,18 +22,14 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     text.push_str("const _: () = {\n");
     text.push_str(&emitter.alias());
     let _ = writeln!(text, "    use {}::__private::*;\n", emitter.item.core);
-    for part in [
-        emitter.prepare(),
-        emitter.check(),
-        emitter.table(),
-        emitter.mechanism(&written),
-        emitter.dynamics(&written),
-        emitter.derivatives(&written),
-        emitter.state_space(&written),
-        emitter.frames(&written),
-    ] {
+    for part in [emitter.prepare(), emitter.check(), emitter.table(), emitter.mechanism(&written)] {
         text.push_str(&part);
     }
+    for trait_ in Trait::OF_ROBOT {
+        text.push_str(&emitter.trait_or_inherent(trait_, &written));
+    }
+    text.push_str(&emitter.configuration(&written));
+    text.push_str(&emitter.frames(&written));
     text.push_str(if emitter.alias().is_empty() { "};\n" } else { "};\n};\n" });
     text
 }
@@ -190,60 +186,54 @@ impl<'m, 'g> Emitter<'m, 'g> {
         if self.is_prepared() { vec![self.prepared(), self.robot()] } else { vec![self.robot()] }
     }
 
-    fn dynamics(&self, written: &[Written]) -> String {
-        let wanted =
-            |method: Method| !methods::takes_robot(method) && !Method::OF_DERIVATIVES.contains(&method);
-        self.trait_or_inherent("Dynamics", written, wanted, self.is_complete(written))
-    }
-
-    fn derivatives(&self, written: &[Written]) -> String {
-        let wanted = |method: Method| Method::OF_DERIVATIVES.contains(&method);
-        self.trait_or_inherent("DynamicsDerivatives", written, wanted, self.has_derivatives(written))
-    }
-
-    /// Whether `outputs(…)` left all that the trait `Dynamics` requires.
-    fn is_complete(&self, written: &[Written]) -> bool {
+    /// Whether `outputs(…)` left all that the trait requires.
+    pub(super) fn is_complete(&self, trait_: Trait, written: &[Written]) -> bool {
         let has = |method: &Method| written.iter().any(|written| written.method == *method);
-        let optional = |method: &Method| *method == Method::EquationsOfMotion;
-        let required =
-            Method::OF_ROBOT.iter().filter(|m| !Method::OF_DERIVATIVES.contains(m) && !optional(m));
-        required.into_iter().all(has)
+        let of_trait =
+            |all: Trait| Method::OF_ROBOT.into_iter().filter(move |m| m.trait_() == all && !m.is_provided());
+        // The derivatives build on the dynamics.
+        let builds_on = if trait_ == Trait::DynamicsDerivatives { Trait::Dynamics } else { trait_ };
+        of_trait(trait_).chain(of_trait(builds_on)).all(|method| has(&method))
     }
 
-    fn has_derivatives(&self, written: &[Written]) -> bool {
-        let has = |method: &Method| written.iter().any(|written| written.method == *method);
-        self.is_complete(written) && Method::OF_DERIVATIVES.iter().all(has)
+    /// The trait with its arguments: `Dynamics<T, 7, 6>`.
+    fn with_arguments(&self, trait_: Trait) -> String {
+        let more = match trait_ {
+            Trait::Regressor => format!(", {}>", self.sizes.parameters),
+            Trait::BaseRegressor => format!(", {}>", self.sizes.base_parameters),
+            _ => return self.of_sizes(trait_.name()),
+        };
+        self.of_sizes(trait_.name()).replace('>', &more)
     }
 
     /// An impl of the trait if all that it requires is there; otherwise the methods on their own.
-    fn trait_or_inherent(
-        &self,
-        name: &str,
-        written: &[Written],
-        wanted: impl Fn(Method) -> bool,
-        is_trait: bool,
-    ) -> String {
-        let chosen: Vec<&Written> = written.iter().filter(|w| wanted(w.method)).collect();
+    fn trait_or_inherent(&self, trait_: Trait, written: &[Written]) -> String {
+        let chosen: Vec<&Written> = written.iter().filter(|w| w.method.trait_() == trait_).collect();
         if chosen.is_empty() {
             return String::new();
         }
-        let trait_ = self.of_sizes(name);
+        let is_trait = self.is_complete(trait_, written);
         let open = |host: &Host| match is_trait {
-            true => self.open(host, &trait_, &host.type_),
+            true => self.open(host, &self.with_arguments(trait_), &host.type_),
             false => self.open_without_scalar(host, ""),
         };
         let declared = |method: Method, text: &str| match is_trait {
             true => text.to_owned(),
             false => self.inherent(method, text),
         };
+        let check = match trait_ {
+            Trait::Dynamics if is_trait => self.check_configuration(),
+            _ => String::new(),
+        };
         let bodies: Vec<String> = chosen.iter().map(|w| indented(&declared(w.method, &w.text))).collect();
-        let mut text = open(&self.prepared()) + &bodies.join("\n") + "    }\n\n";
+        let mut text = open(&self.prepared()) + &bodies.join("\n") + &check + "    }\n\n";
         if self.is_prepared() {
             text.push_str(&open(&self.robot()));
             for Written { method, .. } in chosen {
                 let forwarding = self.forwarding(*method, "&self", "self.prepare().");
                 text.push_str(&declared(*method, &forwarding));
             }
+            text.push_str(&check);
             text.push_str("    }\n\n");
         }
         text
@@ -276,30 +266,6 @@ impl<'m, 'g> Emitter<'m, 'g> {
     pub(super) fn of_sizes(&self, trait_: &str) -> String {
         let Inputs { coordinates, dof, .. } = self.sizes.inputs;
         format!("{trait_}<{}, {coordinates}, {dof}>", self.scalar)
-    }
-
-    fn state_space(&self, written: &[Written]) -> String {
-        let (scalar, n) = (&self.scalar, self.sizes.inputs.dof);
-        let mut text = String::new();
-        for host in self.types() {
-            text.push_str(&self.open(&host, &format!("Configuration<{scalar}, {n}, {n}>"), &host.type_));
-            let _ = write!(
-                text,
-                "        #[inline]\n        fn integrate(&self, q: &SVector<{scalar}, {n}>, delta: &SVector<{scalar}, {n}>) \
-                 -> SVector<{scalar}, {n}> {{\n            q + delta\n        }}\n    }}\n\n"
-            );
-            if !self.has_derivatives(written) {
-                continue;
-            }
-            let trait_ = format!("StateSpaceModel<{scalar}, {n}, {n}, {}, {n}>", 2 * n);
-            text.push_str(&self.open(&host, &trait_, &host.type_));
-            let _ = write!(
-                text,
-                "        #[inline]\n        fn input_map(&self) -> SMatrix<{scalar}, {n}, {n}> {{\n            \
-                 SMatrix::identity()\n        }}\n    }}\n\n"
-            );
-        }
-        text
     }
 }
 

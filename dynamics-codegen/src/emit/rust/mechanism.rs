@@ -18,11 +18,21 @@ impl Emitter<'_, '_> {
         let joints = quoted(model.joints.iter().map(|joint| joint.name.as_str()).collect());
         let bodies = quoted(model.tree.frames.iter().map(|frame| frame.name.as_str()).collect());
         let mut constants = format!(
-            "        const NQ: usize = {coordinates};\n        const NV: usize = {n};\n        const NU: usize = {n};\n        \
+            "        const NQ: usize = {coordinates};\n        const NV: usize = {n};\n        const NU: usize = {};\n        \
              const NAME: &'static str = {:?};\n        const JOINT_NAMES: &'static [&'static str] = &[{joints}];\n        \
              const BODY_NAMES: &'static [&'static str] = &[{bodies}];\n",
+            model.actuated.len(),
             model.name
         );
+        for (name, list) in [
+            ("PARAMETER_NAMES", &self.input.compiled.parameter_names),
+            ("BASE_PARAMETER_NAMES", &self.input.compiled.base_parameter_names),
+        ] {
+            if !list.is_empty() {
+                let list = quoted(list.iter().map(String::as_str).collect());
+                let _ = writeln!(constants, "        const {name}: &'static [&'static str] = &[{list}];");
+            }
+        }
         constants.push_str("        const LIMITS: &'static [JointLimits] = &[\n");
         for joint in &model.joints {
             let _ = writeln!(constants, "            {},", limits(joint.limits));
@@ -53,13 +63,15 @@ impl Emitter<'_, '_> {
 }
 
 /// The constants of the trait `Mechanism`.
-const CONSTANTS: [(&str, &str); 8] = [
+const CONSTANTS: [(&str, &str); 10] = [
     ("NQ", "usize"),
     ("NV", "usize"),
     ("NU", "usize"),
     ("NAME", "&'static str"),
     ("JOINT_NAMES", "&'static [&'static str]"),
     ("BODY_NAMES", "&'static [&'static str]"),
+    ("PARAMETER_NAMES", "&'static [&'static str]"),
+    ("BASE_PARAMETER_NAMES", "&'static [&'static str]"),
     ("LIMITS", "&'static [JointLimits]"),
     ("COST", "Costs"),
 ];

@@ -37,7 +37,9 @@ pub(super) fn write(
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
-        Plan::FromInverse { ancestors } => text.push_str(&from_inverse(ancestors, scalar, context.sizes)),
+        Plan::FromInverse { ancestors } => {
+            text.push_str(&from_inverse(*method, ancestors, scalar, context.sizes));
+        }
         Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.sizes)),
         Plan::Table { frame: Some((link, program)) } => {
             text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
@@ -117,22 +119,26 @@ fn frame_by_table(
 }
 
 /// The body that leaves the solves to the run time.
-fn from_inverse(ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
+fn from_inverse(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
     let n = ancestors.len();
-    let mut text = format!(
-        "    fn forward_dynamics_derivatives(&self, q: &SVector<{scalar}, {}>, v: &SVector<{scalar}, {n}>, \
-         tau: &SVector<{scalar}, {n}>) -> ForwardDynamicsDerivatives<{scalar}, {n}> {{\n",
-        sizes.inputs.coordinates
-    );
+    let mut text = format!("    fn {}(&self", method.name());
+    for &argument in method.arguments() {
+        let _ = write!(text, ", {}: {}", argument.name(), argument_type(argument, scalar, sizes));
+    }
+    let _ = writeln!(text, ") -> {} {{", return_type(method, scalar, sizes));
     let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
     for ancestors in ancestors {
         let list: Vec<String> = ancestors.iter().map(usize::to_string).collect();
         let _ = writeln!(text, "            &[{}],", list.join(", "));
     }
-    text.push_str(
-        "        ];\n        let a = self.forward_dynamics(q, v, tau);\n        \
-         forward_from_inverse(&ANCESTORS, &self.inverse_dynamics_derivatives(q, v, &a))\n    }\n",
-    );
+    text.push_str("        ];\n");
+    text.push_str(match method {
+        Method::InverseMassMatrix => "        inverse_of(&ANCESTORS, &self.mass_matrix(q))\n    }\n",
+        _ => {
+            "        let a = self.forward_dynamics(q, v, tau);\n        \
+             forward_from_inverse(&ANCESTORS, &self.inverse_dynamics_derivatives(q, v, &a))\n    }\n"
+        }
+    });
     text
 }
 

@@ -3,6 +3,7 @@
 mod body;
 mod check;
 mod companion;
+mod configuration;
 mod frames;
 mod item;
 mod items;

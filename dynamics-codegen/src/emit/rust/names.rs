@@ -59,6 +59,7 @@ pub(super) const CALLED: &[&str] = &[
     "columns",
     "factor",
     "forward_from_inverse",
+    "inverse_of",
     "solve_columns",
 ];
 

@@ -96,6 +96,19 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
                 fn inverse_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> InverseDynamicsDerivatives<#scalar, #n> { loop {} }
                 fn forward_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> ForwardDynamicsDerivatives<#scalar, #n> { loop {} }
             }
+            impl<#generics> CentroidalDynamics<#scalar, #n, #n> for #robot #bounds {
+                fn total_mass(&self) -> #scalar { loop {} }
+                fn center_of_mass(&self, q: &SVector<#scalar, #n>) -> SVector<#scalar, 3> { loop {} }
+                fn centroidal_momentum_matrix(&self, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
+            }
+            impl<#generics const __P: usize> Regressor<#scalar, #n, #n, __P> for #robot #bounds {
+                fn regressor(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
+                fn inertial_parameters(&self) -> SVector<#scalar, __P> { loop {} }
+            }
+            impl<#generics const __P: usize> BaseRegressor<#scalar, #n, #n, __P> for #robot #bounds {
+                fn base_regressor(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
+                fn base_parameters(&self) -> SVector<#scalar, __P> { loop {} }
+            }
             impl<#generics> Configuration<#scalar, #n, #n> for #robot #bounds {
                 fn integrate(&self, q: &SVector<#scalar, #n>, delta: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
             }
@@ -105,6 +118,7 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
             #(impl<#generics> Frame<#robot, #scalar, #n, #n> for #module::#frames #bounds {
                 const NAME: &'static str = "";
                 fn pose(robot: &#robot, q: &SVector<#scalar, #n>) -> Pose<#scalar> { loop {} }
+                fn acceleration(robot: &#robot, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, 6> { loop {} }
                 fn jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
                 fn world_jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
             })*
