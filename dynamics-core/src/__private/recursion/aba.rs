@@ -1,79 +1,114 @@
 //! Forward dynamics: the articulated-body algorithm, O(N).
 //!
+//! The columns of a joint are folded one after another, as if massless links stood between them. That needs a speed
+//! for each column: where links share one, the mass matrix is factored.
+//!
 //! Articulated inertias are `[[J, H], [Hᵀ, M]]` on (angular, linear) accelerations.
 //!
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, ch. 7.
 
+use core::mem;
 use core::ops::Add;
 
 use nalgebra::SVector;
 
+use super::joint::Column;
 use super::motion::Motion;
 use super::place::{Body, Moments};
 use super::screw::{Twist, Wrench};
-use super::sweep::each;
+use super::sweep::{difference, each};
 use super::vector::{Matrix, Vector};
-use super::{Tree, entries};
+use super::{Tree, entries, entry};
 use crate::__private::vector;
 use crate::scalar::Scalar;
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
-    /// The accelerations `a = M(q)⁻¹·(τ − C(q,v)·v − G(q))`.
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
+    /// The accelerations `a = M(q)⁻¹·(τ − C(q,v)·v − G(q))`, τ less the passive forces.
     pub fn forward_dynamics(
         &self,
-        q: &SVector<T, N>,
-        v: &SVector<T, N>,
-        tau: &SVector<T, N>,
-    ) -> SVector<T, N> {
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> SVector<T, NV> {
+        if self.shares_speeds() {
+            self.forward_dynamics_by_factoring(q, v, tau)
+        } else {
+            self.forward_dynamics_by_folding(q, v, tau)
+        }
+    }
+
+    /// Whether some links move by one speed.
+    fn shares_speeds(&self) -> bool {
+        let mut taken = [false; NV];
+        let mut speeds = self.links.iter().flat_map(|link| link.joint.speeds());
+        speeds.any(|v| taken.get_mut(v).is_some_and(|taken| mem::replace(taken, true)))
+    }
+
+    fn forward_dynamics_by_folding(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> SVector<T, NV> {
         let bodies = self.place(entries(q));
         let motions = self.motions(&bodies, entries(v));
-        let joints = self.fold_tip_to_base(&bodies, &motions, entries(tau));
-        let base = (self.base_acceleration(), T::zero());
-        let items = bodies.iter().zip(&motions).zip(&joints);
-        let solved = self.base_to_tip(items, base, |((body, motion), joint), (parent, _)| {
+        let forces = difference(entries(tau), entries(&self.passive_forces(q, v)));
+        let folded = self.fold_tip_to_base(&bodies, &motions, &forces);
+        let mut a = [T::zero(); NV];
+        self.base_to_tip(bodies.iter().zip(&motions), self.base_acceleration(), |(body, motion), parent| {
             let acceleration = parent.carried(body.offset) + motion.drift;
-            let a = (joint.u - acceleration.dot(joint.wrench)) * joint.inverse_mass;
-            (acceleration + body.twist().scaled(a), a)
+            body.columns.iter().fold(acceleration, |acceleration, column| {
+                let (Some(folded), Some(a)) = (folded.get(column.v), a.get_mut(column.v)) else {
+                    return acceleration;
+                };
+                *a = (folded.u - acceleration.dot(folded.wrench)) * folded.inverse_mass;
+                acceleration + column.twist().scaled(*a)
+            })
         });
-        vector(solved.map(|(_, a)| a))
+        vector(a)
     }
 
     /// Folds each link, with all that is folded into it already, into its parent.
     fn fold_tip_to_base(
         &self,
-        bodies: &[Body<T>; N],
-        motions: &[Motion<T>; N],
-        tau: &[T; N],
-    ) -> [Joint<T>; N] {
+        bodies: &[Body<T>; NL],
+        motions: &[Motion<T>; NL],
+        forces: &[T; NV],
+    ) -> [Folded<T>; NV] {
         let links = bodies.iter().zip(motions);
-        let mut articulated: [_; N] = each(links, Articulated::zero(), |(body, motion)| {
+        let mut articulated: [_; NL] = each(links, Articulated::zero(), |(body, motion)| {
             Articulated::new(&body.moments, motion.velocity.angular)
         });
-        let mut joints = [Joint::blank(); N];
-        let links = self.links.iter().zip(&mut joints).zip(bodies.iter().zip(motions).zip(tau));
-        for (k, ((link, joint), ((body, motion), tau))) in links.enumerate().rev() {
+        let mut columns = [Folded::blank(); NV];
+        let links = self.links.iter().zip(bodies.iter().zip(motions));
+        for (k, (link, (body, motion))) in links.enumerate().rev() {
             let Some((before, [own, ..])) = articulated.split_at_mut_checked(k) else { continue };
-            *joint = own.joint(body, *tau);
+            let armature = link.joint.armature();
+            for column in body.columns.iter().rev() {
+                let Some(folded) = columns.get_mut(column.v) else { continue };
+                *folded = own.fold(column, armature, entry(forces, column.v));
+                *own = own.without(folded);
+            }
             if let Some(parent) = link.parent.and_then(|parent| before.get_mut(parent)) {
-                *parent = *parent + own.without_joint(joint, motion.drift).shifted(body.offset);
+                *parent = *parent + own.pushed(motion.drift).shifted(body.offset);
             }
         }
-        joints
+        columns
     }
 }
 
-/// What is left of a joint once all beyond it is folded into it: `a = (u − wrench·acceleration)·inverse_mass`.
+/// What is left of a column once all beyond it is folded into it: `a = (u − wrench·acceleration)·inverse_mass`.
 #[derive(Clone, Copy)]
-struct Joint<T> {
-    /// `I S`: the wrench for one unit of the joint's acceleration.
+struct Folded<T> {
+    /// `I S`: the wrench for one unit of the acceleration.
     wrench: Wrench<T>,
-    /// `1/(Sᵀ I S)`
+    /// `1/(Sᵀ I S)`, with the armature.
     inverse_mass: T,
     /// What remains of the joint's force: `τ − Sᵀ p`.
     u: T,
 }
 
-impl<T: Scalar> Joint<T> {
+impl<T: Scalar> Folded<T> {
     fn blank() -> Self {
         Self { wrench: Wrench::zero(), inverse_mass: T::one(), u: T::zero() }
     }
@@ -114,27 +149,30 @@ impl<T: Scalar> Articulated<T> {
         }
     }
 
-    fn joint(&self, body: &Body<T>, tau: T) -> Joint<T> {
-        let wrench = self.times(body.twist());
-        Joint {
+    fn fold(&self, column: Column<T>, armature: T, force: T) -> Folded<T> {
+        let wrench = self.times(column.twist());
+        Folded {
             wrench,
-            inverse_mass: T::one() / body.along_joint(wrench),
-            u: tau - body.along_joint(self.bias),
+            inverse_mass: T::one() / (column.power(wrench) + armature),
+            u: force - column.power(self.bias),
         }
     }
 
-    /// What the parent feels of it through the joint: `I − U Uᵀ/D`, and `p + (I − U Uᵀ/D) c + U u/D`.
-    fn without_joint(&self, joint: &Joint<T>, drift: Twist<T>) -> Self {
-        let Wrench { moment, force } = joint.wrench;
-        let less = joint.wrench.scaled(-joint.inverse_mass);
-        let rest = Self {
+    /// What is felt of it through the column: `I − U Uᵀ/D`, and `p + U u/D`.
+    fn without(&self, folded: &Folded<T>) -> Self {
+        let Wrench { moment, force } = folded.wrench;
+        let less = folded.wrench.scaled(-folded.inverse_mass);
+        Self {
             angular: self.angular + Matrix::outer(moment, less.moment),
             coupling: self.coupling + Matrix::outer(moment, less.force),
             linear: self.linear + Matrix::outer(force, less.force),
-            bias: self.bias,
-        };
-        let pushed = joint.wrench.scaled(joint.u * joint.inverse_mass);
-        Self { bias: self.bias + rest.times(drift) + pushed, ..rest }
+            bias: self.bias + folded.wrench.scaled(folded.u * folded.inverse_mass),
+        }
+    }
+
+    /// The same, its acceleration counted from `drift`: `p + I drift`.
+    fn pushed(&self, drift: Twist<T>) -> Self {
+        Self { bias: self.bias + self.times(drift), ..*self }
     }
 
     /// The same about the parent's origin.

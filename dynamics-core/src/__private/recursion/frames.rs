@@ -6,14 +6,15 @@
 
 use nalgebra::{SMatrix, SVector};
 
+use super::joint::Columns;
 use super::screw::Twist;
 use super::vector::{Matrix, Vector};
-use super::{Tree, entries};
+use super::{Joint, Tree, entries};
 use crate::__private::{columns, vector};
 use crate::kinematics::Pose;
 use crate::scalar::Scalar;
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// The pose in the world of a frame that has the pose (`rotation` by rows, `translation`) in the frame of
     /// `link`; in the world, without a link.
     pub fn pose(
@@ -21,38 +22,38 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         link: Option<usize>,
         rotation: [[T; 3]; 3],
         translation: [T; 3],
-        q: &SVector<T, N>,
+        q: &SVector<T, NQ>,
     ) -> Pose<T> {
         let frame = Placement { rotation: Matrix(rotation), origin: Vector(translation) };
         let Placement { rotation, origin } = self.walk(link, frame, entries(q), |_, _| ());
         Pose { rotation: columns(rotation.transpose().0), translation: vector(origin.0) }
     }
 
-    /// The body Jacobian of the same frame, 6×N, linear rows first: in the frame's axes, of its origin.
+    /// The body Jacobian of the same frame, 6×NV, linear rows first: in the frame's axes, of its origin.
     pub fn jacobian(
         &self,
         link: Option<usize>,
         rotation: [[T; 3]; 3],
         translation: [T; 3],
-        q: &SVector<T, N>,
-    ) -> SMatrix<T, 6, N> {
+        q: &SVector<T, NQ>,
+    ) -> SMatrix<T, 6, NV> {
         let frame = Placement { rotation: Matrix(rotation), origin: Vector(translation) };
         let (jacobian, _) = self.body_jacobian(link, frame, entries(q));
-        columns(jacobian.map(linear_first))
+        columns(jacobian.map(Twist::linear_first))
     }
 
-    /// The Jacobian of the same frame in world axes, 6×N: the velocity of its origin, then the angular velocity.
+    /// The Jacobian of the same frame in world axes, 6×NV: the velocity of its origin, then the angular velocity.
     pub fn world_jacobian(
         &self,
         link: Option<usize>,
         rotation: [[T; 3]; 3],
         translation: [T; 3],
-        q: &SVector<T, N>,
-    ) -> SMatrix<T, 6, N> {
+        q: &SVector<T, NQ>,
+    ) -> SMatrix<T, 6, NV> {
         let frame = Placement { rotation: Matrix(rotation), origin: Vector(translation) };
         let (jacobian, rotation) = self.body_jacobian(link, frame, entries(q));
         columns(jacobian.map(|Twist { angular, linear }| {
-            linear_first(Twist { angular: rotation.times(angular), linear: rotation.times(linear) })
+            Twist { angular: rotation.times(angular), linear: rotation.times(linear) }.linear_first()
         }))
     }
 
@@ -61,35 +62,33 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         &self,
         link: Option<usize>,
         frame: Placement<T>,
-        q: &[T; N],
-    ) -> ([Twist<T>; N], Matrix<T>) {
-        let mut jacobian = [Twist::zero(); N];
-        let in_world = self.walk(link, frame, q, |k, Placement { rotation, origin }| {
-            let [x, y, z] = rotation.0.map(Vector);
-            let (Some(column), Some(link)) = (jacobian.get_mut(k), self.links.get(k)) else { return };
-            let [along_x, along_y, _] = origin.0;
-            *column = if link.prismatic {
-                Twist { angular: Vector::zero(), linear: z }
-            } else {
-                Twist { angular: z, linear: y.scaled(along_x) - x.scaled(along_y) }
-            };
+        q: &[T; NQ],
+    ) -> ([Twist<T>; NV], Matrix<T>) {
+        let mut jacobian = [Twist::zero(); NV];
+        let in_world = self.walk(link, frame, q, |joint, frame| {
+            let (columns, offset) = frame.columns(joint);
+            for column in columns.iter() {
+                if let Some(sum) = jacobian.get_mut(column.v) {
+                    *sum = *sum + column.twist().carried(offset);
+                }
+            }
         });
         (jacobian, in_world.rotation)
     }
 
-    /// Takes a frame on `link` to the base; at each joint `visit` sees where it is in the joint's own frame.
+    /// Takes a frame on `link` to the base; at each link on the way `visit` sees where it is in the link's frame.
     fn walk(
         &self,
         link: Option<usize>,
         frame: Placement<T>,
-        q: &[T; N],
-        mut visit: impl FnMut(usize, Placement<T>),
+        q: &[T; NQ],
+        mut visit: impl FnMut(&Joint<T>, Placement<T>),
     ) -> Placement<T> {
         let mut frame = frame;
         for k in self.path_to_base(link) {
-            let (Some(link), Some(q)) = (self.links.get(k), q.get(k)) else { continue };
-            visit(k, frame);
-            let (rotation, position) = link.pose_in_parent(*q);
+            let Some(link) = self.links.get(k) else { continue };
+            visit(&link.joint, frame);
+            let (rotation, position) = link.pose_in_parent(q);
             frame = Placement {
                 rotation: rotation.product(frame.rotation),
                 origin: position + rotation.times(frame.origin),
@@ -106,8 +105,11 @@ struct Placement<T> {
     origin: Vector<T>,
 }
 
-/// As at the public face.
-fn linear_first<T>(twist: Twist<T>) -> [T; 6] {
-    let Twist { angular: Vector([d, e, f]), linear: Vector([a, b, c]) } = twist;
-    [a, b, c, d, e, f]
+impl<T: Scalar> Placement<T> {
+    /// The columns of the link's joint, in the axes of a frame that is here in the link's, about the link's origin;
+    /// and how far from there the frame is.
+    fn columns(self, joint: &Joint<T>) -> (Columns<T>, Vector<T>) {
+        let columns = joint.columns(self.rotation.0.map(Vector));
+        (columns, self.rotation.transpose().times(self.origin))
+    }
 }

@@ -8,6 +8,7 @@
 use super::Tree;
 use super::place::Body;
 use super::screw::Twist;
+use super::sweep::each;
 use super::vector::Vector;
 use crate::scalar::Scalar;
 
@@ -20,26 +21,55 @@ pub(super) struct Motion<T> {
     pub(super) drift: Twist<T>,
 }
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
+/// How a link would move if its joint stood still: with its parent.
+#[derive(Clone, Copy)]
+pub(super) struct Carried<T> {
+    /// The velocity.
+    pub(super) velocity: Twist<T>,
+    /// The spatial acceleration, less gravity: the rate of the velocity of whatever of the body is at a place.
+    pub(super) acceleration: Twist<T>,
+}
+
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// Velocities and drifts of all links, for joint speeds `v`.
-    pub(super) fn motions(&self, bodies: &[Body<T>; N], v: &[T; N]) -> [Motion<T>; N] {
-        let at_rest = Motion { velocity: Twist::zero(), drift: Twist::zero() };
-        self.base_to_tip(bodies.iter().zip(v), at_rest, |(body, v), parent| Motion {
-            velocity: parent.velocity.carried(body.offset) + body.twist().scaled(*v),
-            drift: drift(body, parent.velocity.angular, *v),
+    pub(super) fn motions(&self, bodies: &[Body<T>; NL], v: &[T; NV]) -> [Motion<T>; NL] {
+        let base = Motion { velocity: Twist::zero(), drift: Twist::zero() };
+        self.base_to_tip(bodies, base, |body, Motion { velocity: parent, .. }| {
+            let joint = body.columns.at(v);
+            Motion {
+                velocity: parent.carried(body.offset) + joint,
+                drift: drift(parent.angular, body.offset, joint),
+            }
         })
     }
 
     /// Accelerations of all links, less gravity, for joint accelerations `a`.
     pub(super) fn accelerations(
         &self,
-        bodies: &[Body<T>; N],
-        motions: &[Motion<T>; N],
-        a: &[T; N],
-    ) -> [Twist<T>; N] {
-        let items = bodies.iter().zip(motions).zip(a);
-        self.base_to_tip(items, self.base_acceleration(), |((body, motion), a), parent| {
-            parent.carried(body.offset) + motion.drift + body.twist().scaled(*a)
+        bodies: &[Body<T>; NL],
+        motions: &[Motion<T>; NL],
+        a: &[T; NV],
+    ) -> [Twist<T>; NL] {
+        self.base_to_tip(bodies.iter().zip(motions), self.base_acceleration(), |(body, motion), parent| {
+            parent.carried(body.offset) + motion.drift + body.columns.at(a)
+        })
+    }
+
+    /// The motions that the parents impart.
+    pub(super) fn carried(
+        &self,
+        bodies: &[Body<T>; NL],
+        motions: &[Motion<T>; NL],
+        accelerations: &[Twist<T>; NL],
+    ) -> [Carried<T>; NL] {
+        let base = Carried { velocity: Twist::zero(), acceleration: self.base_acceleration() };
+        let own = each(motions.iter().zip(accelerations), base, |(Motion { velocity, .. }, acceleration)| {
+            Carried { velocity: *velocity, acceleration: acceleration.without_turning(*velocity) }
+        });
+        let parents = self.of_parents(&own, base);
+        each(bodies.iter().zip(parents), base, |(body, parent)| Carried {
+            velocity: parent.velocity.carried(body.offset),
+            acceleration: parent.acceleration.carried(body.offset),
         })
     }
 
@@ -49,13 +79,9 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
     }
 }
 
-/// Centripetal and Coriolis acceleration at a joint whose parent turns with `w`.
-fn drift<T: Scalar>(body: &Body<T>, w: Vector<T>, v: T) -> Twist<T> {
-    let centripetal = w.cross(w.cross(body.offset));
-    let sweep = w.cross(body.axis.scaled(v));
-    if body.prismatic {
-        Twist { angular: Vector::zero(), linear: centripetal + sweep + sweep }
-    } else {
-        Twist { angular: sweep, linear: centripetal }
-    }
+/// Centripetal and Coriolis acceleration of a link at `offset` from a parent that turns with `w`, and which its
+/// joint moves with the twist `joint`, constant in the link's own axes.
+fn drift<T: Scalar>(w: Vector<T>, offset: Vector<T>, joint: Twist<T>) -> Twist<T> {
+    let centripetal = w.cross(w.cross(offset) + joint.linear);
+    Twist { angular: w.cross(joint.angular), linear: centripetal + (w + joint.angular).cross(joint.linear) }
 }

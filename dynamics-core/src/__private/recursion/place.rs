@@ -5,6 +5,7 @@
 
 use core::ops::Add;
 
+use super::joint::Columns;
 use super::screw::{Twist, Wrench};
 use super::vector::{Matrix, Vector};
 use super::{Link, Tree};
@@ -13,12 +14,10 @@ use crate::scalar::Scalar;
 /// A link at a configuration.
 #[derive(Clone, Copy)]
 pub(super) struct Body<T> {
-    /// Whether the joint slides.
-    pub(super) prismatic: bool,
+    /// How its joint moves it.
+    pub(super) columns: Columns<T>,
     /// From the link's axes to the world's.
-    pub(super) rotation: Matrix<T>,
-    /// The joint's axis.
-    pub(super) axis: Vector<T>,
+    rotation: Matrix<T>,
     /// From the parent's origin to the link's.
     pub(super) offset: Vector<T>,
     /// The link's own mass.
@@ -27,65 +26,48 @@ pub(super) struct Body<T> {
 
 impl<T: Scalar> Body<T> {
     /// The world, as a parent.
-    pub(super) fn world() -> Self {
+    fn world() -> Self {
         Self {
-            prismatic: false,
+            columns: Columns::none(),
             rotation: Matrix::identity(),
-            axis: Vector::zero(),
             offset: Vector::zero(),
             moments: Moments::zero(),
         }
     }
-
-    /// The joint's twist at unit speed.
-    #[inline(always)]
-    pub(super) fn twist(&self) -> Twist<T> {
-        if self.prismatic {
-            Twist { angular: Vector::zero(), linear: self.axis }
-        } else {
-            Twist { angular: self.axis, linear: Vector::zero() }
-        }
-    }
-
-    /// What the joint feels of a wrench about the link's origin.
-    #[inline(always)]
-    pub(super) fn along_joint(&self, wrench: Wrench<T>) -> T {
-        if self.prismatic { self.axis.dot(wrench.force) } else { self.axis.dot(wrench.moment) }
-    }
 }
 
 impl<T: Scalar> Link<T> {
-    /// The pose of the link in its parent's frame.
-    pub(super) fn pose_in_parent(&self, q: T) -> (Matrix<T>, Vector<T>) {
-        let (rotation, position) = (Matrix(self.rotation), Vector(self.position));
-        if self.prismatic {
-            return (rotation, position + rotation.third_column().scaled(q));
-        }
-        let (s, c) = q.sin_cos();
-        let about_z = |[x, y, z]: [T; 3]| [x.mul_add(c, y * s), y.mul_add(c, -(x * s)), z];
-        (Matrix(self.rotation.map(about_z)), position)
-    }
-
     fn moments(&self) -> Moments<T> {
         Moments { mass: self.mass, first: Vector(self.first), second: Matrix::symmetric(self.second) }
     }
 }
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// The links at the configuration `q`.
-    pub(super) fn place(&self, q: &[T; N]) -> [Body<T>; N] {
-        self.base_to_tip(self.links.iter().zip(q), Body::world(), |(link, q), parent| {
-            let (rotation, position) = link.pose_in_parent(*q);
+    pub(super) fn place(&self, q: &[T; NQ]) -> [Body<T>; NL] {
+        self.base_to_tip(&self.links, Body::world(), |link, parent| {
+            let (rotation, position) = link.pose_in_parent(q);
             let rotation = parent.rotation.product(rotation);
             Body {
-                prismatic: link.prismatic,
+                columns: link.joint.columns(rotation.transpose().0.map(Vector)),
                 rotation,
-                axis: rotation.third_column(),
                 offset: parent.rotation.times(position),
                 moments: link.moments().turned(rotation),
             }
         })
     }
+
+    /// The origins of all links, counted from where the world's is at `base`.
+    pub(super) fn origins(&self, bodies: &[Body<T>; NL], base: Vector<T>) -> [Vector<T>; NL] {
+        self.base_to_tip(bodies, base, |body, parent| parent + body.offset)
+    }
+}
+
+/// The first moment of all links, which have their origins there, kg·m.
+pub(super) fn first_moment<T: Scalar>(bodies: &[Body<T>], origins: &[Vector<T>]) -> Vector<T> {
+    bodies.iter().zip(origins).fold(Vector::zero(), |sum, (body, origin)| {
+        sum + body.moments.first + origin.scaled(body.moments.mass)
+    })
 }
 
 /// Mass by its moments about an origin: `m`, `h = ∫r dm`, `Σ = ∫r rᵀ dm`.

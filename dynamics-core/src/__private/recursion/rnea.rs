@@ -8,28 +8,37 @@ use nalgebra::SVector;
 use super::motion::Motion;
 use super::place::{Body, Moments};
 use super::screw::{Twist, Wrench};
-use super::sweep::each;
+use super::sweep::{add, each};
 use super::vector::Vector;
 use super::{Tree, entries};
 use crate::__private::vector;
 use crate::scalar::Scalar;
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
-    /// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)`.
-    pub fn inverse_dynamics(&self, q: &SVector<T, N>, v: &SVector<T, N>, a: &SVector<T, N>) -> SVector<T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
+    /// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)` and the passive forces.
+    pub fn inverse_dynamics(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> SVector<T, NV> {
         let bodies = self.place(entries(q));
         let motions = self.motions(&bodies, entries(v));
         let accelerations = self.accelerations(&bodies, &motions, entries(a));
-        along_joints(&bodies, &self.wrenches(&bodies, &motions, &accelerations))
+        let wrenches = self.wrenches(&bodies, &motions, &accelerations);
+        let [mut tau] = self.passive_forces(q, v).data.0;
+        self.add_armature_forces(entries(a), &mut tau);
+        add_along_joints(&bodies, wrenches, &mut tau);
+        vector(tau)
     }
 
-    /// The bias forces `C(q,v)·v + G(q)`.
-    pub fn bias_forces(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> SVector<T, N> {
-        self.inverse_dynamics(q, v, &vector([T::zero(); N]))
+    /// The bias forces `C(q,v)·v + G(q)` and the passive forces.
+    pub fn bias_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV> {
+        self.inverse_dynamics(q, v, &vector([T::zero(); NV]))
     }
 
     /// The gravity forces `G(q) = ∂V/∂q`.
-    pub fn gravity_forces(&self, q: &SVector<T, N>) -> SVector<T, N> {
+    pub fn gravity_forces(&self, q: &SVector<T, NQ>) -> SVector<T, NV> {
         let bodies = self.place(entries(q));
         self.gravity_forces_on(&bodies, &self.composite_moments(&bodies))
     }
@@ -37,24 +46,26 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
     /// Composite bodies that all accelerate upwards.
     pub(super) fn gravity_forces_on(
         &self,
-        bodies: &[Body<T>; N],
-        composites: &[Moments<T>; N],
-    ) -> SVector<T, N> {
+        bodies: &[Body<T>; NL],
+        composites: &[Moments<T>; NL],
+    ) -> SVector<T, NV> {
         let upwards = -Vector(self.gravity);
-        let joints = bodies.iter().zip(composites);
-        vector(each(joints, T::zero(), |(body, Moments { mass, first, .. })| {
-            let (moment, force) = (first.cross(upwards), upwards.scaled(*mass));
-            body.along_joint(Wrench { moment, force })
-        }))
+        let weights = composites.iter().map(|Moments { mass, first, .. }| Wrench {
+            moment: first.cross(upwards),
+            force: upwards.scaled(*mass),
+        });
+        let mut forces = [T::zero(); NV];
+        add_along_joints(bodies, weights, &mut forces);
+        vector(forces)
     }
 
     /// The wrench on each link and all its descendants together.
     pub(super) fn wrenches(
         &self,
-        bodies: &[Body<T>; N],
-        motions: &[Motion<T>; N],
-        accelerations: &[Twist<T>; N],
-    ) -> [Wrench<T>; N] {
+        bodies: &[Body<T>; NL],
+        motions: &[Motion<T>; NL],
+        accelerations: &[Twist<T>; NL],
+    ) -> [Wrench<T>; NL] {
         let links = bodies.iter().zip(motions).zip(accelerations);
         let own = each(links, Wrench::zero(), |((body, motion), acceleration)| {
             let moving = body.moments.centripetal_wrench(motion.velocity.angular);
@@ -64,9 +75,15 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
     }
 }
 
-fn along_joints<T: Scalar, const N: usize>(
-    bodies: &[Body<T>; N],
-    wrenches: &[Wrench<T>; N],
-) -> SVector<T, N> {
-    vector(each(bodies.iter().zip(wrenches), T::zero(), |(body, wrench)| body.along_joint(*wrench)))
+/// Adds what the joints feel of the wrenches on the links.
+fn add_along_joints<T: Scalar>(
+    bodies: &[Body<T>],
+    wrenches: impl IntoIterator<Item = Wrench<T>>,
+    forces: &mut [T],
+) {
+    for (body, wrench) in bodies.iter().zip(wrenches) {
+        for column in body.columns.iter() {
+            add(forces, column.v, column.power(wrench));
+        }
+    }
 }

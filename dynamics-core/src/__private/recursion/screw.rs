@@ -53,6 +53,18 @@ impl<T: Scalar> Twist<T> {
         }
     }
 
+    /// The spatial acceleration, of a body with the velocity `v` whose origin has the acceleration `self`.
+    #[inline(always)]
+    pub(super) fn without_turning(self, v: Self) -> Self {
+        Self { angular: self.angular, linear: self.linear - v.angular.cross(v.linear) }
+    }
+
+    /// As at the public face.
+    pub(super) fn linear_first(self) -> [T; 6] {
+        let ([a, b, c], [d, e, f]) = (self.linear.0, self.angular.0);
+        [a, b, c, d, e, f]
+    }
+
     /// The power of a wrench.
     #[inline(always)]
     pub(super) fn dot(self, f: Wrench<T>) -> T {

@@ -1,7 +1,7 @@
 //! The two directions of a recursion, without a way to panic.
 
 use core::iter::successors;
-use core::ops::Add;
+use core::ops::{Add, AddAssign};
 
 use nalgebra::SMatrix;
 
@@ -11,17 +11,17 @@ use super::vector::Vector;
 use crate::__private::columns;
 use crate::scalar::Scalar;
 
-impl<T: Scalar, const N: usize> Tree<T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// One value for each link, from an item of its own and the value of its parent; that of the world is `base`.
     pub(super) fn base_to_tip<I, S: Copy>(
         &self,
         items: impl IntoIterator<Item = I>,
         base: S,
         mut step: impl FnMut(I, S) -> S,
-    ) -> [S; N] {
-        let mut values = [base; N];
-        for (k, (link, item)) in self.links.iter().zip(items).enumerate() {
-            let parent = link.parent.filter(|&parent| parent < k).and_then(|parent| values.get(parent));
+    ) -> [S; NL] {
+        let mut values = [base; NL];
+        for (k, item) in (0..NL).zip(items) {
+            let parent = self.parent(k).and_then(|parent| values.get(parent));
             let value = step(item, parent.copied().unwrap_or(base));
             if let Some(own) = values.get_mut(k) {
                 *own = value;
@@ -30,13 +30,18 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
         values
     }
 
+    /// For each link the value of its parent; that of the world is `base`.
+    pub(super) fn of_parents<S: Copy>(&self, values: &[S; NL], base: S) -> [S; NL] {
+        each(0..NL, base, |k| self.parent(k).and_then(|parent| values.get(parent)).copied().unwrap_or(base))
+    }
+
     /// Adds to each link's value those of all its descendants; `shifted` takes a value to the parent's origin.
     pub(super) fn collect_tip_to_base<S: Copy + Add<Output = S>>(
         &self,
-        bodies: &[Body<T>; N],
-        mut values: [S; N],
+        bodies: &[Body<T>; NL],
+        mut values: [S; NL],
         shifted: impl Fn(S, Vector<T>) -> S,
-    ) -> [S; N] {
+    ) -> [S; NL] {
         for (k, (link, body)) in self.links.iter().zip(bodies).enumerate().rev() {
             let Some((before, [value, ..])) = values.split_at_mut_checked(k) else { continue };
             if let Some(parent) = link.parent.and_then(|parent| before.get_mut(parent)) {
@@ -48,7 +53,11 @@ impl<T: Scalar, const N: usize> Tree<T, N> {
 
     /// The links from `link` down to the base, `link` first; none for the world.
     pub(super) fn path_to_base(&self, link: Option<usize>) -> impl Iterator<Item = usize> {
-        successors(link, |&k| self.links.get(k)?.parent.filter(|&parent| parent < k))
+        successors(link, |&k| self.parent(k))
+    }
+
+    fn parent(&self, k: usize) -> Option<usize> {
+        self.links.get(k)?.parent.filter(|&parent| parent < k)
     }
 }
 
@@ -65,15 +74,40 @@ pub(super) fn each<I, S: Copy, const N: usize>(
     values
 }
 
+/// `a − b`
+pub(super) fn difference<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> [T; N] {
+    each(a.iter().zip(b), T::zero(), |(a, b)| *a - *b)
+}
+
 /// The zero matrix.
 pub(super) fn zeros<T: Scalar, const N: usize>() -> SMatrix<T, N, N> {
     columns([[T::zero(); N]; N])
 }
 
-/// Writes an entry, if there is one.
+/// The identity.
+pub(super) fn identity<T: Scalar, const N: usize>() -> SMatrix<T, N, N> {
+    let mut m = zeros();
+    (0..N).for_each(|k| add_entry(&mut m, k, k, T::one()));
+    m
+}
+
+/// Adds to an entry, if there is one.
 #[inline(always)]
-pub(super) fn set<T, const N: usize>(m: &mut SMatrix<T, N, N>, row: usize, column: usize, value: T) {
-    if let Some(entry) = m.data.0.get_mut(column).and_then(|column| column.get_mut(row)) {
-        *entry = value;
+pub(super) fn add<T: AddAssign>(values: &mut [T], index: usize, value: T) {
+    if let Some(entry) = values.get_mut(index) {
+        *entry += value;
+    }
+}
+
+/// Adds to an entry of a matrix, if there is one.
+#[inline(always)]
+pub(super) fn add_entry<T: Scalar, const N: usize>(
+    m: &mut SMatrix<T, N, N>,
+    row: usize,
+    column: usize,
+    value: T,
+) {
+    if let Some(column) = m.data.0.get_mut(column) {
+        add(column, row, value);
     }
 }

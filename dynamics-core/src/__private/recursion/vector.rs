@@ -83,6 +83,19 @@ impl<T: Scalar> Matrix<T> {
         Self([[i, o, o], [o, i, o], [o, o, i]])
     }
 
+    /// The rotation of a unit quaternion i, j, k, w.
+    #[inline(always)]
+    pub(super) fn of_quaternion([x, y, z, w]: [T; 4]) -> Self {
+        let (one, two) = (T::one(), T::of(2.0));
+        let diagonal = |a: T, b: T| one - two * a.mul_add(a, b * b);
+        let twice = |a: T, b: T, c: T, d: T| two * a.mul_add(b, c * d);
+        Self([
+            [diagonal(y, z), twice(x, y, -w, z), twice(x, z, w, y)],
+            [twice(x, y, w, z), diagonal(x, z), twice(y, z, -w, x)],
+            [twice(x, z, -w, y), twice(y, z, w, x), diagonal(x, y)],
+        ])
+    }
+
     /// The symmetric matrix of the entries xx, yy, zz, xy, xz, yz.
     #[inline(always)]
     pub(super) fn symmetric([xx, yy, zz, xy, xz, yz]: [T; 6]) -> Self {
