@@ -58,7 +58,7 @@ fn single_precision_agrees_with_double() {
 #[test]
 fn a_hundred_joints_fit_on_a_small_stack() {
     type Call = fn(&Tree<f64, 100, 100, 100>, &SVector<f64, 100>) -> f64;
-    let calls: [Call; 7] = [
+    let calls: [Call; 8] = [
         |tree, x| tree.inverse_dynamics(x, x, x)[0],
         |tree, x| tree.forward_dynamics(x, x, x)[0],
         |tree, x| tree.lagrangian(x, x),
@@ -66,6 +66,7 @@ fn a_hundred_joints_fit_on_a_small_stack() {
         |tree, x| tree.inverse_dynamics_derivatives(x, x, x).dtau_dq[0],
         |tree, x| tree.forward_dynamics_derivatives(x, x, x).da_dq[0],
         |tree, x| tree.inverse_mass_matrix(x)[0],
+        |tree, x| tree.centroidal_momentum_matrix(x)[0],
     ];
     let tree = Box::new(Robot::<100, 100, 100>::random("RRP", Shape::Chain, 4).tree);
     for call in calls {
@@ -137,4 +138,6 @@ fn nothing_is_lost_far_from_the_worlds_origin() {
     far[0] = 1e9;
     assert_eq!(tree.inverse_dynamics(&far, &v, &a), tree.inverse_dynamics(&q, &v, &a));
     assert_eq!(tree.coriolis_matrix(&far, &v), tree.coriolis_matrix(&q, &v));
+    assert_eq!(tree.centroidal_momentum(&far, &v), tree.centroidal_momentum(&q, &v));
+    assert_eq!(tree.centroidal_momentum_matrix(&far), tree.centroidal_momentum_matrix(&q));
 }

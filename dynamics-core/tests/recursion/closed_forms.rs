@@ -141,6 +141,12 @@ fn a_free_body_moves_as_newton_and_euler_say() {
     let fall = rotation.transpose() * Vector3::new(0.0, 0.0, -G);
     let a = tree.forward_dynamics(&q, &stacked(v, Vector3::zeros()), &SVector::zeros());
     close(&a, &stacked(fall, Vector3::zeros()), TOLERANCE);
+
+    let momentum = rotation * (v + w.cross(&center)) * MASS;
+    let about_center = inertia + Matrix3::from(center.cross_matrix() * lever);
+    close(&tree.center_of_mass(&q), &(Vector3::new(3.0, -1.0, 0.5) + rotation * center), TOLERANCE);
+    let expected = stacked(momentum, rotation * about_center * w);
+    close(&tree.centroidal_momentum(&q, &twist), &expected, TOLERANCE);
 }
 
 /// A shaft that turns and slides along the vertical: a massless link stands between its two joints.

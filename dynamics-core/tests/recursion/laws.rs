@@ -174,9 +174,29 @@ fn power<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     });
 }
 
-/// `J·v` is how the pose changes, in both kinds of axes, on every link and in the world.
-fn frames<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
+/// The centre of mass, its velocity, and the momentum, by point masses.
+fn centroid<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, _)| {
+        let tree = &robot.tree;
+        let points: Vec<_> = robot.positions(&robot.flow(&q, &v), true).collect();
+        let mass: f64 = points.iter().map(|(m, _)| m).sum();
+        let center: Vector3<f64> = points.iter().map(|(m, r)| r.map(|x| x.value) * (*m / mass)).sum();
+        let linear: Vector3<f64> = points.iter().map(|(m, r)| tangent(r) * *m).sum();
+        let about_center = |r: &Vector3<Dual>| (r.map(|x| x.value) - center).cross(&tangent(r));
+        let angular: Vector3<f64> = points.iter().map(|(m, r)| about_center(r) * *m).sum();
+        close(&tree.center_of_mass(&q), &center, TOLERANCE);
+        close(&(tree.center_of_mass_jacobian(&q) * v), &(linear / mass), TOLERANCE);
+        for momentum in [tree.centroidal_momentum(&q, &v), tree.centroidal_momentum_matrix(&q) * v] {
+            close(&momentum.fixed_rows::<3>(0).into_owned(), &linear, TOLERANCE);
+            close(&momentum.fixed_rows::<3>(3).into_owned(), &angular, TOLERANCE);
+        }
+    });
+}
+
+/// `J·v` is how the pose changes, in both kinds of axes, `J·a + J̇·v` how the body velocity changes; on every link and
+/// in the world.
+fn frames<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
+    for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, a)| {
         let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         let rotation = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
         let (rotation, translation) = (rows(rotation.matrix()), [0.2, -0.5, 0.4]);
@@ -195,6 +215,10 @@ fn frames<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
 
             close(&(robot.tree.world_jacobian(link, rotation, translation, &q) * v), &in_world, TOLERANCE);
             close(&(robot.tree.jacobian(link, rotation, translation, &q) * v), &in_frame, TOLERANCE);
+            close(&robot.tree.velocity(link, rotation, translation, &q, &v), &in_frame, TOLERANCE);
+            let rate = dual.velocity(link, dual_rotation, dual_translation, &flow, &moving(&v, &a));
+            let acceleration = robot.tree.acceleration(link, rotation, translation, &q, &v, &a);
+            close(&acceleration, &tangent(&rate), TOLERANCE);
         }
     });
 }
@@ -229,6 +253,7 @@ for_every_robot! {
     inverse_derivatives: derivatives_of_inverse_dynamics_are_exact;
     forward: forward_dynamics_undoes_inverse_dynamics;
     power: power_is_stored_or_turned_to_heat;
+    centroid: momenta_are_those_of_the_point_masses;
     frames: jacobians_are_the_rates_of_poses;
 }
 

@@ -1,4 +1,4 @@
-//! Poses and Jacobians of frames at rest on a link, O(depth).
+//! Poses, Jacobians and motions of frames at rest on a link, O(depth).
 //!
 //! From the frame down to the base: only the joints that move it are asked for their sine and cosine.
 //!
@@ -57,6 +57,45 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
         }))
     }
 
+    /// The body velocity `J·v` of the same frame, linear first: in the frame's axes, of its origin, m/s and rad/s.
+    pub fn velocity(
+        &self,
+        link: Option<usize>,
+        rotation: [[T; 3]; 3],
+        translation: [T; 3],
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        let frame = Placement { rotation: Matrix(rotation), origin: Vector(translation) };
+        let mut velocity = Twist::zero();
+        self.walk(link, frame, entries(q), |joint, frame| {
+            velocity = velocity + frame.moved_by(joint, entries(v));
+        });
+        vector(velocity.linear_first())
+    }
+
+    /// The rate of the body velocity, `J·a + J̇·v`, in m/s² and rad/s²; gravity has no part in it.
+    ///
+    /// A column of `J` that the joints between it and the frame move with `W` changes by `−W × J`.
+    pub fn acceleration(
+        &self,
+        link: Option<usize>,
+        rotation: [[T; 3]; 3],
+        translation: [T; 3],
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> SVector<T, 6> {
+        let frame = Placement { rotation: Matrix(rotation), origin: Vector(translation) };
+        let (mut beyond, mut acceleration) = (Twist::zero(), Twist::zero());
+        self.walk(link, frame, entries(q), |joint, frame| {
+            let own = frame.moved_by(joint, entries(v));
+            acceleration = acceleration + frame.moved_by(joint, entries(a)) + own.cross(beyond);
+            beyond = beyond + own;
+        });
+        vector(acceleration.linear_first())
+    }
+
     /// The columns of the body Jacobian, and the rotation from the frame's axes to the world's.
     fn body_jacobian(
         &self,
@@ -111,5 +150,11 @@ impl<T: Scalar> Placement<T> {
     fn columns(self, joint: &Joint<T>) -> (Columns<T>, Vector<T>) {
         let columns = joint.columns(self.rotation.0.map(Vector));
         (columns, self.rotation.transpose().times(self.origin))
+    }
+
+    /// The frame's twist while the link's joint moves, and nothing else.
+    fn moved_by(self, joint: &Joint<T>, speeds: &[T]) -> Twist<T> {
+        let (columns, offset) = self.columns(joint);
+        columns.at(speeds).carried(offset)
     }
 }

@@ -12,6 +12,7 @@
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008; each file names its own source.
 
 mod aba;
+mod centroid;
 mod composite;
 mod energy;
 mod factor;

@@ -103,6 +103,12 @@ impl<T: Scalar> Wrench<T> {
         Self { moment: self.moment.scaled(k), force: self.force.scaled(k) }
     }
 
+    /// As at the public face.
+    pub(super) fn linear_first(self) -> [T; 6] {
+        let ([a, b, c], [d, e, f]) = (self.force.0, self.moment.0);
+        [a, b, c, d, e, f]
+    }
+
     /// The same wrench about the parent's origin, from which this origin has the given offset.
     #[inline(always)]
     pub(super) fn shifted(self, offset: Vector<T>) -> Self {
