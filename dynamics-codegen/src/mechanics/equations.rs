@@ -1,5 +1,7 @@
 //! The equations of one robot: every output as expressions of coordinates, speeds and parameters.
 
+use std::cell::OnceCell;
+
 use super::aba;
 use super::base_regressor::{Symbols, base_columns};
 use super::centroidal;
@@ -52,6 +54,9 @@ pub struct Derivation<'g> {
     bodies: Vec<Option<usize>>,
     /// The coordinates that begin unit quaternions.
     quaternions: Vec<usize>,
+    /// Derived when first asked for.
+    regressor: OnceCell<Vec<RegressorColumn<Expr<'g>>>>,
+    base_regressor: OnceCell<Vec<RegressorColumn<Expr<'g>>>>,
 }
 
 impl<'g> Derivation<'g> {
@@ -74,6 +79,8 @@ impl<'g> Derivation<'g> {
             joints: model.links.iter().map(|link| link.joint.clone()).collect(),
             bodies: model.links.iter().map(|link| link.body).collect(),
             quaternions: model.tree.quaternions().collect(),
+            regressor: OnceCell::new(),
+            base_regressor: OnceCell::new(),
         }
     }
 
@@ -211,10 +218,10 @@ impl<'g> Derivation<'g> {
                 vec![self.wide("a", centroidal::centroidal_momentum_matrix(&self.kinematic, q))]
             }
             Method::TotalMass => vec![scalar(centroidal::total_mass(&self.kinematic))],
-            Method::Regressor => vec![beside("y", &self.regressor())],
-            Method::InertialParameters => vec![values(&self.regressor())],
-            Method::BaseRegressor => vec![beside("y", &self.base_regressor())],
-            Method::BaseParameters => vec![values(&self.base_regressor())],
+            Method::Regressor => vec![beside("y", self.regressor())],
+            Method::InertialParameters => vec![values(self.regressor())],
+            Method::BaseRegressor => vec![beside("y", self.base_regressor())],
+            Method::BaseParameters => vec![values(self.base_regressor())],
             Method::Pose(frame) => self.pose(frame),
             Method::Jacobian(frame) => vec![self.jacobian(frame, Axes::Body)],
             Method::WorldJacobian(frame) => vec![self.jacobian(frame, Axes::World)],
@@ -325,16 +332,17 @@ impl<'g> Derivation<'g> {
     }
 
     /// The columns of the regressor.
-    pub fn regressor(&self) -> Vec<RegressorColumn<Expr<'g>>> {
-        self.regressed().columns()
+    pub fn regressor(&self) -> &[RegressorColumn<Expr<'g>>] {
+        self.regressor.get_or_init(|| self.regressed().columns())
     }
 
     /// The columns of the regressor of base parameters.
-    pub fn base_regressor(&self) -> Vec<RegressorColumn<Expr<'g>>> {
-        let is_body: Vec<bool> = self.bodies.iter().map(Option::is_some).collect();
-        let regressed = self.regressed();
-        let symbols = Symbols { graph: self.graph, inputs: self.inputs, quaternions: &self.quaternions };
-        base_columns(&regressed, &is_body, &symbols)
+    pub fn base_regressor(&self) -> &[RegressorColumn<Expr<'g>>] {
+        self.base_regressor.get_or_init(|| {
+            let is_body: Vec<bool> = self.bodies.iter().map(Option::is_some).collect();
+            let symbols = Symbols { graph: self.graph, inputs: self.inputs, quaternions: &self.quaternions };
+            base_columns(&self.regressed(), &is_body, &symbols)
+        })
     }
 
     fn regressed(&self) -> Regressed<'_, Expr<'g>> {

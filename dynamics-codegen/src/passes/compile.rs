@@ -113,7 +113,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
         compiled.push(CompiledMethod { method, cost, plan });
     }
     let table = table.map(|entries| program_of(&entries));
-    let names = |columns: Vec<RegressorColumn<Expr<'g>>>| columns.into_iter().map(|c| c.name).collect();
+    let names = |columns: &[RegressorColumn<Expr<'g>>]| columns.iter().map(|c| c.name.clone()).collect();
     let has = |wanted: [Method; 2]| methods.iter().any(|method| wanted.contains(method));
     let parameter_names = match has([Method::Regressor, Method::InertialParameters]) {
         true => names(derivation.regressor()),

@@ -249,11 +249,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
 
     /// A method of the robot that prepares and passes on.
     pub(super) fn forwarding(&self, method: Method, receiver: &str, callee: &str) -> String {
-        let mut arguments = receiver.to_owned();
-        for &argument in method.arguments() {
-            let type_ = methods::argument_type(argument, &self.scalar, self.sizes);
-            let _ = write!(arguments, ", {}: {type_}", argument.name());
-        }
+        let arguments = receiver.to_owned() + &methods::typed_arguments(method, &self.scalar, self.sizes);
         let returned = methods::return_type(method, &self.scalar, self.sizes);
         let passed = methods::pass_on(method);
         format!(

@@ -76,11 +76,7 @@ fn straight_line(
 
 /// The body that leaves everything to the run time's recursion.
 fn by_table(method: Method, scalar: &str, sizes: Sizes) -> String {
-    let arguments: String = method
-        .arguments()
-        .iter()
-        .map(|&argument| format!(", {}: {}", argument.name(), argument_type(argument, scalar, sizes)))
-        .collect();
+    let arguments = typed_arguments(method, scalar, sizes);
     format!(
         "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table().{0}({2})\n    }}\n",
         method.name(),
@@ -102,18 +98,19 @@ fn frame_by_table(
     let entries: Vec<&str> = body.results.iter().map(String::as_str).collect();
     let rows: Vec<String> = entries[..9].chunks(3).map(|row| format!("[{}]", row.join(", "))).collect();
     let mut text = format!(
-        "    fn {}(robot: &{robot}, q: {}) -> {} {{\n",
+        "    fn {}(robot: &{robot}{}) -> {} {{\n",
         method.name(),
-        argument_type(Argument::Q, scalar, context.sizes),
+        typed_arguments(method, scalar, context.sizes),
         return_type(method, scalar, context.sizes)
     );
     text.push_str(&bindings(method, context, &body));
     let _ = writeln!(
         text,
-        "        robot.__table().{}({link:?}, [{}], [{}], q)\n    }}",
+        "        robot.__table().{}({link:?}, [{}], [{}], {})\n    }}",
         method.name(),
         rows.join(", "),
-        entries[9..].join(", ")
+        entries[9..].join(", "),
+        pass_on(method)
     );
     text
 }
@@ -121,11 +118,8 @@ fn frame_by_table(
 /// The body that leaves the solves to the run time.
 fn from_inverse(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
     let n = ancestors.len();
-    let mut text = format!("    fn {}(&self", method.name());
-    for &argument in method.arguments() {
-        let _ = write!(text, ", {}: {}", argument.name(), argument_type(argument, scalar, sizes));
-    }
-    let _ = writeln!(text, ") -> {} {{", return_type(method, scalar, sizes));
+    let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
+    let mut text = format!("    fn {}(&self{arguments}) -> {returned} {{\n", method.name());
     let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
     for ancestors in ancestors {
         let list: Vec<String> = ancestors.iter().map(usize::to_string).collect();
@@ -160,8 +154,15 @@ pub(super) fn signature(method: Method, receiver: &str, scalar: &str, sizes: Siz
     format!("    fn {}({arguments}) -> {} {{", method.name(), return_type(method, scalar, sizes))
 }
 
+/// `, q: &SVector<T, 7>, v: …`
+pub(super) fn typed_arguments(method: Method, scalar: &str, sizes: Sizes) -> String {
+    let typed =
+        |&argument: &Argument| format!(", {}: {}", argument.name(), argument_type(argument, scalar, sizes));
+    method.arguments().iter().map(typed).collect()
+}
+
 /// The type of an argument.
-pub(super) fn argument_type(argument: Argument, scalar: &str, sizes: Sizes) -> String {
+fn argument_type(argument: Argument, scalar: &str, sizes: Sizes) -> String {
     format!("&SVector<{scalar}, {}>", sizes.inputs.size(argument))
 }
 
