@@ -171,9 +171,9 @@ fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
 /// Bodies that are sound one by one can leave joints whose motions cancel each other.
 fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
     let Some(idle) = mechanics::singular::idle_motion(model, graph) else { return };
-    let moving = spec.joints.iter().filter(|joint| joint.kind != spec::JointKind::Fixed);
-    let joints: Vec<_> =
-        moving.enumerate().filter(|(k, _)| idle.contains(k)).map(|(_, joint)| joint).collect();
+    let moving = model.joints.iter().filter(|joint| idle.iter().any(|speed| joint.v.contains(speed)));
+    let of_spec = |moving: &model::JointInfo| spec.joints.iter().find(|joint| joint.name.text == moving.name);
+    let joints: Vec<_> = moving.filter_map(of_spec).collect();
     let names: Vec<_> = joints.iter().map(|joint| format!("`{}`", joint.name)).collect();
     let message = match names.as_slice() {
         [only] => format!("the joint {only} moves no inertia in any configuration"),

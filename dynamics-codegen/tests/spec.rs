@@ -50,7 +50,7 @@ fn the_robojudge_is_read_as_written() {
     let frame = &model.tree.frames[1];
     let com = frame.pose.inverse().transform_point(arm.inertia.first);
     assert_eq!((frame.name.as_str(), values(&graph, com.0)), ("arm", [0.0, 10.0, 0.0]));
-    let limits = model.joints[1].limits;
+    let limits = model.joints[1].limits[0];
     assert_eq!([limits.lower, limits.upper, limits.effort], [-std::f64::consts::FRAC_PI_2, 1.5, 100.0]);
 }
 

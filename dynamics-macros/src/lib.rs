@@ -33,7 +33,8 @@ use proc_macro::TokenStream;
 ///
 /// The attributes stand **after** the derive: before it, rustc rejects them (`legacy_derive_helpers`). Their order
 /// among each other is free, but for two things: coordinates are numbered in the order of the moving joints, each
-/// joint behind the one that carries it, and bodies are listed in the order of their lines.
+/// joint behind the one that carries it, and bodies are listed in the order of their lines. A joint may stand before
+/// the one that it follows.
 ///
 /// # The struct
 ///
@@ -70,15 +71,26 @@ use proc_macro::TokenStream;
 ///
 /// # `#[joint(name: kind(axis), parent -> child, …)]`
 ///
-/// The joint carries `child`, which turns or slides on `parent`: the `world` or a body that another joint carries. Every
-/// body is carried by one joint.
+/// The joint carries `child`, which moves on `parent`: the `world` or a body that another joint carries. Every body is
+/// carried by one joint.
 ///
-/// | kind | coordinate |
-/// |---|---|
-/// | `revolute(axis)` | the angle about the axis, rad |
-/// | `continuous(axis)` | the same, without limits |
-/// | `prismatic(axis)` | the distance along the axis, m |
-/// | `fixed` | none: `child` is welded to `parent`, and needs no `#[body]` if it is a mere frame |
+/// | kind | coordinates q | speeds v, where they are not q̇ |
+/// |---|---|---|
+/// | `revolute(axis)` | the angle about the axis, rad | |
+/// | `continuous(axis)` | the same, without limits | |
+/// | `prismatic(axis)` | the distance along the axis, m | |
+/// | `helical(axis, pitch)` | the angle; it slides by `pitch`, in m/rad, for each radian: `helical(z, 5mm / (2*pi))` | |
+/// | `cylindrical(axis)` | the angle, the distance | |
+/// | `universal(axis, axis)` | the angle about the first axis, that about the second, which the first turn carries | |
+/// | `planar(normal)` | the distances along two axes across the normal, the angle about it | |
+/// | `translation` | the distances along x, y and z | |
+/// | `ball` | a unit quaternion i, j, k, w: the child's axes in the joint's frame | the angular velocity in the child's axes, 3 |
+/// | `free` | the position in the joint's frame, then a quaternion as that of a ball | the child's twist in its own axes, linear first, 6 |
+/// | `fixed` | none: `child` is welded to `parent`, and needs no `#[body]` if it is a mere frame | |
+///
+/// The two axes across a normal go on in the cycle x, y, z: for z they are x and y, for x y and z, for y z and x; for a
+/// negative one they change places. For an oblique normal n the first is `e × n`, of unit length, and the second
+/// `n × (e × n)`; e is the axis to which n is the least inclined, and is itself the first one if n is across it.
 ///
 /// Where it is, at zero. Without any of these keys it is at the parent's frame:
 ///
@@ -90,9 +102,13 @@ use proc_macro::TokenStream;
 /// | `mdh(a, alpha, d, theta)` | `Rx(α)·Tx(a)·Rz(θ)·Tz(d)`, modified (Khalil, Craig) | |
 /// | `screw(axis, through = [x, y, z])` | a line in the parent's frame at zero; `at` and `rpy` may place the frame | |
 ///
-/// The axis of a joint is in the child's frame, and is constant. `dh`, `mdh` and `screw` define it themselves: then the
-/// kind has none, as in `revolute`. With `dh` and `mdh` the coordinate is added to `theta` (`d`, if prismatic); with `dh`
-/// the child's frame is the distal one, behind `a` and `alpha`.
+/// The axes of a joint are in the child's frame, and are constant. `dh`, `mdh` and `screw` define one themselves: then the
+/// kind has none, as in `revolute`, or `helical(pitch)`. `dh` and `mdh` are for `revolute`, `continuous`, `prismatic` and
+/// `fixed`; the coordinate is added to `theta` (`d`, if prismatic), and with `dh` the child's frame is the distal one,
+/// behind `a` and `alpha`. `screw` is for the kinds of one axis.
+///
+/// The keys that follow are for joints of one degree of freedom: revolute, continuous, prismatic, helical. What others
+/// need of them they have where they are composed of such joints, with bodies without mass between them.
 ///
 /// What it is allowed, for `Mechanism::LIMITS`; numbers only, infinite without the key:
 ///
@@ -101,6 +117,53 @@ use proc_macro::TokenStream;
 /// | `limits = [lower, upper]` | rad or m; not for `continuous` |
 /// | `velocity = v` | rad/s or m/s |
 /// | `effort = f` | N·m or N |
+///
+/// What moves it. Without these keys it has a coordinate of its own, and an input:
+///
+/// | key | | default |
+/// |---|---|---|
+/// | `actuated = on`, `off` | whether its speeds have inputs, `Mechanism::NU`; for joints of several degrees of freedom too | `on`; `off` of `free` joints |
+/// | `mimic = leader` | follows another joint of one degree of freedom: it has no coordinate, speed, input or limits | |
+/// | `ratio = r` | of a follower's coordinate to the leader's: a number, or m/rad, or rad/m | 1 |
+/// | `offset = c` | the follower's coordinate where the leader's is zero, rad or m | 0 |
+/// | `locked = value` | is welded at this coordinate, rad or m, and its followers with it; what else its line says of motion and forces waits until it is unlocked | |
+///
+/// A follower moves at exactly `ratio · q + offset`: all that it carries is in the equations of its leader. It may follow
+/// another follower, in no circle.
+///
+/// What acts in it by itself, at the coordinate p and the speed s of the joint; on the left-hand side of the equations,
+/// as part of `bias_forces` and `inverse_dynamics`:
+///
+/// | key | force | unit | default |
+/// |---|---|---|---|
+/// | `damping = d` | `d·s` | N·m·s/rad, N·s/m | 0 |
+/// | `friction = f` | `f·s / √(s² + friction_speed²)` | N·m, N | 0 |
+/// | `friction_speed = s` | where friction has 71 % of its size | rad/s, m/s | 0.01 |
+/// | `stiffness = k` | `k·(p − rest)` | N·m/rad, N/m | 0 |
+/// | `rest = p` | where the spring is slack | rad, m | 0 |
+/// | `armature = a` | `a·ṡ`, of what turns with the joint and is no body | kg·m², kg | 0 |
+/// | `rotor = i` | with `gear` instead of `armature`: the inertia of a motor about its shaft, `a = i·gear²` | kg·m² | |
+/// | `gear = n` | turns of the motor for one of the joint; radians for a metre, if prismatic | 1, rad/m | |
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// A motor with a gear and a spring, and a rack that it drives by a pinion of radius `r`.
+/// #[derive(Dynamics)]
+/// #[joint(motor: revolute(y), world -> pinion, rotor = 2e-5, gear = 50, damping = 0.1, stiffness = k, rest = 90deg)]
+/// #[body(pinion)]
+/// #[joint(teeth: prismatic(x), world -> rack, mimic = motor, ratio = r)]
+/// #[body(rack, solid = point(2kg))]
+/// struct RackAndPinion<T> {
+///     k: T,
+///     r: T,
+/// }
+///
+/// let (robot, q, v) = (RackAndPinion { k: 3.0, r: 0.1 }, SVector::from([0.0]), SVector::from([2.0]));
+/// assert!((robot.mass_matrix(&q)[(0, 0)] - (2e-5 * 50.0 * 50.0 + 2.0 * 0.1 * 0.1)).abs() < 1e-15);
+/// let passive = 0.1 * 2.0 - 3.0 * core::f64::consts::FRAC_PI_2;
+/// assert!((robot.bias_forces(&q, &v)[0] - passive).abs() < 1e-14);
+/// assert_eq!(RackAndPinion::<f64>::JOINT_NAMES, ["motor"]);
+/// ```
 ///
 /// # `#[body(name, …)]`
 ///
@@ -133,7 +196,8 @@ use proc_macro::TokenStream;
 /// | `outputs(mass_matrix, …)` | the methods to emit, by their names; `pose`, `jacobian` and `world_jacobian` of all frames | all |
 /// | `allow(nonphysical_inertia)` | for all bodies | |
 /// | `urdf = "path"` | the file that has the robot, by its path from the crate's root | |
-/// | `passive = on`, `off` | whether the damping and friction of a file act; so far they cannot, and `on` refuses them | `on` |
+/// | `base = fixed`, `free` | how the root of the file is in the world: welded, or by a joint `root_joint` of kind `free`, the first one | `fixed` |
+/// | `passive = on`, `off` | whether the damping and friction of the file act | `on` |
 /// | `snap = on`, `off` | whether entries of rotations within 1e-11 of 0 and ±1 become these | `on` |
 /// | `crate = "path"` | where the crate `dynamics-core` is found | `"::dynamics_core"` |
 ///
@@ -145,21 +209,31 @@ use proc_macro::TokenStream;
 /// pub struct Iiwa14;
 /// ```
 ///
-/// Links are bodies, each with its frame. The link that no joint carries is welded to the world; it is the world if its
-/// name is `world`. Coordinates follow the order of joints in the file; a joint written before the one that carries it
-/// comes after that. Joints are revolute, continuous, prismatic and fixed. Limits are kept as constants; `<visual>`,
-/// `<collision>` and what else the equations have no use for are left out. An edit of the file rebuilds the crate.
+/// Links are bodies, each with its frame. The link that no joint carries is welded to the world, or with `base = free` it
+/// moves freely; it is the world if its name is `world`. Coordinates follow the order of joints in the file; a joint
+/// written before the one that carries it comes after that. Of `floating` joints the kind is `free`; the axis of a `planar`
+/// one is its normal. `<mimic>` is `mimic`, `ratio` and `offset`, `<dynamics>` is `damping` and `friction`, `<limit>` is
+/// kept as constants; the limits of joints that follow others, `<transmission>`, `<safety_controller>`, `<visual>`,
+/// `<collision>` and what else the equations have no use for are left out, and `dynamics check` lists them. An edit of the
+/// file rebuilds the crate.
 ///
-/// Lines on the struct say more than the file: each key of a `#[body]` with the name of a link replaces what the file
-/// says of it (`solid` all of its `<inertial>`, `inertia` the tensor and its `rpy`), and further joints and bodies
-/// are added. So a payload is a field:
+/// Lines on the struct say more than the file. Each key of a `#[body]` with the name of a link replaces what the file says
+/// of it (`solid` all of its `<inertial>`, `inertia` the tensor and its `rpy`), each key of a `#[joint(name, …)]` without
+/// kind and bodies what it says of the joint, and further joints and bodies are added. So a payload is a field:
 ///
 /// ```ignore
 /// #[derive(Dynamics)]
 /// #[dynamics(urdf = "robots/iiwa14.urdf")]
+/// #[joint(iiwa_joint_1, rotor = 1e-4, gear = 160, friction = 0.3)]
+/// #[joint(iiwa_joint_7, locked = 30deg)]
 /// #[joint(grip: fixed, iiwa_link_ee -> payload)]
 /// #[body(payload, solid = point(m))]
 /// pub struct Iiwa14WithPayload<T> { pub m: T }
+///
+/// /// A robot that stands on nothing: q is its position, its quaternion, and the angles of its joints.
+/// #[derive(Dynamics)]
+/// #[dynamics(urdf = "robots/hyq.urdf", base = free)]
+/// pub struct Hyq;
 /// ```
 ///
 /// # What is generated
@@ -203,15 +277,15 @@ use proc_macro::TokenStream;
 ///
 /// | of | |
 /// |---|---|
-/// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `FieldUnknown` |
+/// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `KeyMissing`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `FieldUnknown` |
 /// | the struct | `StructNeeded`, `FieldTypeUnsupported`, `FieldTypesDiffer` |
 /// | names | `NameDuplicate`, `NamesCollide`, `NameReserved` |
 /// | the tree | `JointMissing`, `DegreesOfFreedomMissing`, `JointsTooMany`, `ParentUnknown`, `BodyMissing`, `WorldIsChild`, `ParentTwice`, `Cycle`, `BodyUnreachable`, `ParentAfterChild` |
-/// | joints | `JointKindUnknown`, `AxisMissing`, `AxisUnneeded`, `AxisZero`, `AxisNotConstant`, `LimitsUnneeded`, `LimitsInverted`, `LimitNegative`, `ConstantNeeded`, `AngleLooksLikeDegrees` |
+/// | joints | `JointKindUnknown`, `JointUnknown`, `KeyNotOfKind`, `AxisMissing`, `AxisUnneeded`, `AxisZero`, `AxesParallel`, `AxisNotConstant`, `RatioZero`, `MimicUnknown`, `MimicUnfit`, `MimicCycle`, `PassiveNegative`, `LimitsUnneeded`, `LimitsInverted`, `LimitNegative`, `ConstantNeeded`, `AngleLooksLikeDegrees` |
 /// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia`, `MassMatrixSingular` |
 /// | quantities | `UnitMismatch`, `UnitsDiffer`, `DivisionByZero`, `RootOfNegative` |
 /// | options | `OutputUnknown`, `AllowUnknown` |
-/// | files | `FileUnreadable`, `PathOutside`, `FileTooLarge`, `XmlInvalid`, `RobotMissing`, `XacroLeft`, `ElementMissing`, `NumberInvalid`, `ChildUnknown`, `RootsSeveral`, `LimitsMissing`, `JointUnsupported`, `PassiveNegative`, `PassiveUnsupported`; with the file's line and column |
+/// | files | `FileUnreadable`, `PathOutside`, `FileTooLarge`, `XmlInvalid`, `RobotMissing`, `XacroLeft`, `ElementMissing`, `NumberInvalid`, `ChildUnknown`, `RootsSeveral`, `LimitsMissing`, `PassiveUnsupported`; with the file's line and column |
 /// | the compiler | `SelfCheckFailed`: the finished code is compared with a plain recursion, and differs |
 ///
 /// ```compile_fail

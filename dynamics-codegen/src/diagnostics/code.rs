@@ -53,6 +53,8 @@ catalogue! {
     KeyDuplicate => "keep one of the two",
     /// Keys that exclude each other.
     KeysConflict => "keep one of the two",
+    /// A key without the one that it belongs to.
+    KeyMissing => "add the key that is missing, or leave this one out",
     /// A list or a call with too few or too many parts.
     CountWrong => "give exactly the parts that are listed",
     /// A number too large or too small for a double.
@@ -81,9 +83,9 @@ catalogue! {
     /// There is no joint.
     JointMissing => "add a joint, as in `#[joint(theta1: revolute(z), world -> column)]`",
     /// No joint moves.
-    DegreesOfFreedomMissing => "make a joint `revolute`, `continuous` or `prismatic`",
+    DegreesOfFreedomMissing => "let a joint move: make it `revolute` or `prismatic`, or leave out its `locked`",
     /// Too many joints.
-    JointsTooMany => "split the robot, or weld joints that hardly move: above 256 joints its matrices fit no stack",
+    JointsTooMany => "split the robot, or weld joints that hardly move: above 256 links its matrices fit no stack",
     /// A joint's parent is no body.
     ParentUnknown => "name a body that a joint carries, or `world`",
     /// A moving joint carries a body that is not described.
@@ -100,13 +102,22 @@ catalogue! {
     ParentAfterChild => "move this line up: coordinates are numbered in the order of the joints, parents first",
     // Joints
     /// The kind of joint is not known.
-    JointKindUnknown => "use one of revolute, continuous, prismatic, fixed",
+    JointKindUnknown => "use one of revolute, continuous, prismatic, helical, cylindrical, universal, planar, \
+         translation, ball, free, fixed",
+    /// More is said of a joint that the file does not have.
+    JointUnknown => "name a `<joint>` of the file, or write the whole joint: \
+         `#[joint(name: kind(axis), parent -> child, …)]`",
+    /// A key that joints of this kind do not have.
+    KeyNotOfKind => "leave the key out, or compose the joint of `revolute` and `prismatic` ones, \
+         with bodies without mass between them",
     /// The joint has no axis.
     AxisMissing => "give an axis, as in `revolute(z)`",
     /// The axis is given by the placement already.
     AxisUnneeded => "leave the axis out: the placement defines it",
     /// The axis is no direction.
     AxisZero => "give a direction, as `z`, `-x` or `[0, 1, 1]`",
+    /// The axes of a universal joint are parallel.
+    AxesParallel => "give two directions that differ, as in `universal(x, y)`",
     /// The axis depends on a field.
     AxisNotConstant => "write the axis in numbers, and turn the joint's frame by `rpy`",
     /// A joint that does not move, or turns without end, has no limits.
@@ -115,6 +126,16 @@ catalogue! {
     LimitsInverted => "write the smaller limit first",
     /// A limit of speed or effort is negative.
     LimitNegative => "give the limit as a magnitude",
+    /// A ratio, a pitch or a gear of zero.
+    RatioZero => "give a number other than zero",
+    /// The joint to follow does not exist.
+    MimicUnknown => "name another joint of the robot",
+    /// The joint to follow has no coordinate, or more than one.
+    MimicUnfit => "follow a joint of one degree of freedom: revolute, continuous, prismatic or helical",
+    /// Joints follow each other in a circle.
+    MimicCycle => "let one of them move by itself: leave out its `mimic`",
+    /// Damping, friction, a spring or an armature of the wrong sign.
+    PassiveNegative => "give damping, friction, stiffness and armature as magnitudes",
     /// A field stands where a number is needed.
     ConstantNeeded => "write a number",
     /// An angle without a unit that is more than a full turn.
@@ -177,12 +198,10 @@ catalogue! {
     RootsSeveral => "connect them by joints, of type `fixed` if they do not move",
     /// A revolute or prismatic joint without limits.
     LimitsMissing => "add `<limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/>`",
-    /// A kind of joint that is not supported yet.
-    JointUnsupported => "use revolute, continuous, prismatic and fixed joints",
-    /// Damping or friction that drives.
-    PassiveNegative => "give damping and friction as magnitudes",
-    /// Damping or friction, which are not supported yet.
-    PassiveUnsupported => "leave passive forces out by `#[dynamics(passive = off)]`",
+    /// A passive force of a file that is not known.
+    PassiveUnsupported => "take the attribute out of the file, or leave all passive forces of the file out by \
+         `#[dynamics(passive = off)]`; what the robot has of them can stand on the struct, as in \
+         `#[joint(name, stiffness = 3)]`",
     // The compiler
     /// The generated code does not compute what the plain recursion computes.
     SelfCheckFailed => "this is a mistake of the compiler, not yours: please report it with the robot's specification",

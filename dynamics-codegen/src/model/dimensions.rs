@@ -76,8 +76,15 @@ impl<'a> Units<'a> {
             .iter()
             .filter(|slot| slot.constant.is_none() || !units.names_field(slot.formula))
             .partition(|slot| units.bare_field(slot.formula).is_some());
+        let mut wrong = vec![];
         for slot in bare.into_iter().chain(composed) {
-            units.slot(slot, diags);
+            let Err(mistake) = units.fits(slot, slot.formula) else { continue };
+            // The entries of one list are wrong together, mostly.
+            let list = (slot.owner, slot.key, slot.quantity);
+            if !(mistake.code == Code::UnitMismatch && wrong.contains(&list)) {
+                wrong.push(list);
+                diags.push(mistake);
+            }
         }
         units
     }
@@ -100,10 +107,6 @@ impl<'a> Units<'a> {
             FormulaKind::Negative(inner) => self.bare_field(inner),
             _ => None,
         }
-    }
-
-    fn slot(&mut self, slot: &Slot, diags: &mut Diagnostics) {
-        let _ = diags.keep(self.fits(slot, slot.formula));
     }
 
     /// The formula has the unit that its slot needs; of a sum each term has it.

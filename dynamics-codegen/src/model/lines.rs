@@ -1,10 +1,9 @@
 //! Judges each line by itself: which options go together, and numbers that cannot be meant.
 
+use super::joints;
 use super::quantities::{Quantity, Slot};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::spec::{
-    BodySpec, Formula, FormulaKind, JointKind, JointSpec, Name, PlacementKind, RobotSpec, plain,
-};
+use crate::spec::{BodySpec, Formula, FormulaKind, JointAmendment, Name, RobotSpec, plain};
 use crate::symbolic::Number;
 
 /// The methods that `outputs(…)` may name.
@@ -55,10 +54,9 @@ pub(super) fn check(spec: &RobotSpec, slots: &[Slot], diags: &mut Diagnostics) {
         );
     }
     check_allowed(spec.options.allow.as_deref(), diags);
+    check_file(spec, diags);
     for joint in &spec.joints {
-        check_axis(joint, diags);
-        check_placement(joint, diags);
-        check_limits(joint, diags);
+        joints::check(joint, diags);
     }
     for body in &spec.bodies {
         check_allowed(body.allow.as_deref(), diags);
@@ -79,62 +77,20 @@ fn check_allowed(names: Option<&[Name]>, diags: &mut Diagnostics) {
     }
 }
 
-fn check_axis(joint: &JointSpec, diags: &mut Diagnostics) {
-    let (name, kind) = (&joint.name, joint.kind);
-    match (&joint.axis, &joint.placement) {
-        (None, None) if kind != JointKind::Fixed => {
-            diags.error(Code::AxisMissing, &joint.kind_place, format!("the joint `{name}` has no axis"));
-        }
-        (Some(axis), _) if kind == JointKind::Fixed => {
-            let message = format!("the joint `{name}` does not move, and has an axis");
-            let unneeded = Diagnostic::new(Code::AxisUnneeded, &axis.place, message);
-            diags.push(unneeded.help("leave the axis out: write `fixed`"));
-        }
-        (Some(axis), Some(placement)) => {
-            let key = key_of(&placement.kind);
-            let message = format!("the axis of `{name}` is given twice: by `{key}` as well");
-            diags.error(Code::AxisUnneeded, &axis.place, message);
-        }
-        _ => {}
+/// What is said of a file that is not there.
+fn check_file(spec: &RobotSpec, diags: &mut Diagnostics) {
+    for JointAmendment { name, .. } in &spec.amendments {
+        let message = format!("the joint `{name}` has no kind, and there is no file that has it");
+        let help = "write `#[joint(name: kind(axis), parent -> child, …)]`";
+        diags.push(Diagnostic::new(Code::Syntax, &name.place, message).help(help));
     }
-}
-
-fn key_of(placement: &PlacementKind) -> &'static str {
-    match placement {
-        PlacementKind::Dh(_) => "dh",
-        PlacementKind::ModifiedDh(_) => "mdh",
-        PlacementKind::Screw { .. } => "screw",
-    }
-}
-
-fn check_placement(joint: &JointSpec, diags: &mut Diagnostics) {
-    let Some(placement) = &joint.placement else { return };
-    let (name, key) = (&joint.name, key_of(&placement.kind));
-    if key == "screw" && joint.kind == JointKind::Fixed {
-        let message = format!("the joint `{name}` does not move, and has a screw");
-        let conflict = Diagnostic::new(Code::KeysConflict, &placement.place, message);
-        diags.push(conflict.help("place it by `at` and `rpy`"));
-    } else if key != "screw" && (joint.at.is_some() || joint.rpy.is_some()) {
-        let other = if joint.at.is_some() { "at" } else { "rpy" };
-        let message = format!("the joint `{name}` is placed twice: by `{key}` and by `{other}`");
-        let conflict = Diagnostic::new(Code::KeysConflict, &placement.place, message);
-        diags.push(conflict.help("keep one of the two; a `fixed` joint in between can hold the other"));
-    }
-}
-
-fn check_limits(joint: &JointSpec, diags: &mut Diagnostics) {
-    let name = &joint.name;
-    let [lower, _] = match &joint.limits {
-        Some(limits) => limits.each_ref().map(Some),
-        None => [None; 2],
-    };
-    let (why, unneeded) = match joint.kind {
-        JointKind::Fixed => ("does not move", [lower, joint.velocity.as_ref(), joint.effort.as_ref()]),
-        JointKind::Continuous => ("turns without end", [lower, None, None]),
-        _ => return,
-    };
-    for limit in unneeded.into_iter().flatten() {
-        diags.error(Code::LimitsUnneeded, &limit.place, format!("the joint `{name}` {why}, and has a limit"));
+    if let Some(base) = &spec.options.base {
+        let help = match base.is_free {
+            true => "carry the first body by a free joint: `#[joint(root_joint: free, world -> body)]`",
+            false => "leave `base` out: joints on `world` hold the robot",
+        };
+        let message = "`base` says how a file's root stands in the world, and there is no `urdf`";
+        diags.push(Diagnostic::new(Code::KeyMissing, &base.place, message).help(help));
     }
 }
 

@@ -1,9 +1,12 @@
 //! What a specification means: a checked tree of bodies, its quantities expressions of the robot's fields.
 
 mod build;
+mod composition;
 mod dimensions;
 mod fields;
+mod joints;
 mod lines;
+mod mimic;
 pub mod names;
 mod physics;
 mod placement;
@@ -17,6 +20,8 @@ mod values;
 pub use build::build;
 pub use lines::OUTPUTS;
 pub use tree::{Drive, Frame, Link, Motion, Passive, Tree};
+
+use std::ops::Range;
 
 use crate::symbolic::{Expr, SymbolId};
 
@@ -70,13 +75,19 @@ pub struct Limits {
     pub effort: f64,
 }
 
-/// A joint as users see it. The joint `k` moves the link `k`.
+/// A joint as users see it.
 #[derive(Clone, Debug)]
 pub struct JointInfo {
     /// The joint's name.
     pub name: String,
-    /// Its limits.
-    pub limits: Limits,
+    /// Its coordinates: one, or four of a ball joint, seven of a free one.
+    pub q: Range<usize>,
+    /// Its speeds, one for each degree of freedom.
+    pub v: Range<usize>,
+    /// The limits of each of its degrees of freedom.
+    pub limits: Vec<Limits>,
+    /// Whether its speeds have inputs.
+    pub actuated: bool,
 }
 
 /// A link as users see it.
@@ -97,7 +108,7 @@ pub struct Model<'g> {
     pub field_type: FieldType,
     /// The fields that the equations use, in order of declaration.
     pub parameters: Vec<Parameter>,
-    /// The moving joints, in the order of their coordinates.
+    /// The joints that have coordinates, in the order of these.
     pub joints: Vec<JointInfo>,
     /// The speeds that have an input, in order.
     pub actuated: Vec<usize>,

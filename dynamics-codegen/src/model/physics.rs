@@ -1,7 +1,8 @@
 //! Whether the numbers of a robot can be those of bodies. What depends on fields is not judged here.
 
 use super::lines::NONPHYSICAL_INERTIA;
-use super::topology::Topology;
+use super::quantities::{Along, Slot};
+use super::topology::{Coordinate, Topology};
 use super::values::Values;
 use super::{Link, Motion, Tree};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
@@ -10,7 +11,7 @@ use crate::spec::{BodySpec, Formula, InertiaKind, JointKind, JointSpec, Name, Ro
 use crate::symbolic::{Expr, Graph, Number, Op};
 
 /// Checks the numbers of each body and joint by themselves.
-pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) {
+pub(super) fn check_numbers(spec: &RobotSpec, slots: &[Slot], values: &Values, diags: &mut Diagnostics) {
     for body in &spec.bodies {
         let mass = body.mass.as_ref().or(body.solid.as_ref().map(|solid| &*solid.mass));
         if let Some((formula, mass)) = mass.and_then(|mass| Some((mass, constant(values, mass)?)))
@@ -24,6 +25,39 @@ pub(super) fn check_numbers(spec: &RobotSpec, values: &Values, diags: &mut Diagn
     }
     for joint in &spec.joints {
         check_limits(joint, values, diags);
+    }
+    for slot in slots {
+        check_sign(slot, values, diags);
+    }
+}
+
+/// What resists does not drive, and what is a ratio is not zero.
+fn check_sign(slot: &Slot, values: &Values, diags: &mut Diagnostics) {
+    let Slot { formula, key, owner, .. } = *slot;
+    let is_of_joint =
+        matches!(key, "armature" | "rotor" | "damping" | "friction" | "stiffness" | "friction_speed");
+    let is_ratio = matches!(key, "ratio" | "pitch" | "gear");
+    let Some(value) = constant(values, formula).filter(|_| is_of_joint || is_ratio) else { return };
+    let unit = slot.quantity.unit();
+    let fact = match unit {
+        "no unit" => format!("`{key}` of `{owner}` is {}", plain(value)),
+        unit => format!("`{key}` of `{owner}` is {} {unit}", plain(value)),
+    };
+    let place = &formula.place;
+    if is_of_joint && value.is_negative() {
+        let drives = matches!(key, "damping" | "friction");
+        let why = if drives { ": it would drive the joint" } else { "" };
+        diags.error(Code::PassiveNegative, place, fact + why);
+    } else if key == "friction_speed" && value.is_zero() {
+        let wrong = Diagnostic::new(Code::PassiveNegative, place, fact + ": friction would jump at rest");
+        diags.push(wrong.help("give the speed from which on friction is nearly all there, as in `0.01`"));
+    } else if is_ratio && value.is_zero() {
+        let help = match key {
+            "ratio" => "give a number other than zero, or lock the joint: `locked = …`",
+            "pitch" => "give a distance for each radian, or make the joint `revolute`",
+            _ => "give how far the rotor turns for each unit of the joint",
+        };
+        diags.push(Diagnostic::new(Code::RatioZero, place, fact).help(help));
     }
 }
 
@@ -95,8 +129,11 @@ fn check_tensor(body: &BodySpec, spec: &RobotSpec, values: &Values, diags: &mut 
 }
 
 fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
-    let name = &joint.name;
-    if let Some([lower, upper]) = &joint.limits
+    let JointSpec { name, keys, .. } = joint;
+    if joint.kind.speeds() != 1 {
+        return;
+    }
+    if let Some([lower, upper]) = &keys.limits
         && let (Some(low), Some(high)) = (constant(values, lower), constant(values, upper))
         && !has_room(low, high, lower)
     {
@@ -104,15 +141,17 @@ fn check_limits(joint: &JointSpec, values: &Values, diags: &mut Diagnostics) {
         let message = format!("the limits of `{name}` leave no room: from `{low}` to `{high}`");
         diags.error(Code::LimitsInverted, &lower.place.to(&upper.place), message);
     }
-    let units = if joint.kind == JointKind::Prismatic { ["m/s", "N"] } else { ["rad/s", "N·m"] };
-    for (key, limit, unit) in [("velocity", &joint.velocity, units[0]), ("effort", &joint.effort, units[1])] {
+    let along = Along::of(joint.kind);
+    for (key, limit, quantity) in
+        [("velocity", &keys.velocity, along.speed), ("effort", &keys.effort, along.force)]
+    {
         if let Some(limit) = limit
             && let Some(value) = constant(values, limit).filter(|value| value.is_negative())
         {
             diags.error(
                 Code::LimitNegative,
                 &limit.place,
-                format!("the {key} limit of `{name}` is {} {unit}", plain(value)),
+                format!("the {key} limit of `{name}` is {} {}", plain(value), quantity.unit()),
             );
         }
     }
@@ -137,16 +176,10 @@ pub(super) fn check_links(
         diags.error(Code::NumberOutOfRange, &Place::of(&spec.ident), message);
         return;
     }
-    let moving: Vec<_> = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).collect();
-    let mut moved = vec![Load::default(); tree.links.len()];
-    for (k, link) in tree.links.iter().enumerate().rev() {
-        let beyond = moved[k];
-        moved[k] = beyond.and(Load::of(link.inertia));
-        if let Some(parent) = link.parent {
-            moved[parent] = moved[parent].and(moved[k]);
-        }
-        if let Some(joint) = moving.get(k) {
-            check_moved(joint, link, moved[k], beyond, diags);
+    let loads = loads(tree);
+    for (joint, coordinate) in spec.joints.iter().zip(&topology.coordinate) {
+        if let Some(Coordinate { v, .. }) = coordinate {
+            check_moved(joint, *v, &loads, tree, diags);
         }
     }
     let all_allowed = allows(spec.options.allow.as_deref());
@@ -159,8 +192,9 @@ pub(super) fn check_links(
 
 /// The bodies that are welded together on each link.
 fn bodies_of_links<'s>(spec: &'s RobotSpec, topology: &Topology) -> Vec<Vec<&'s BodySpec>> {
-    let mut bodies = vec![vec![]; spec.joints.len()];
-    for (link, body) in topology.links().into_iter().zip(&topology.body) {
+    let links = topology.links.iter().map(|links| links.end).max().unwrap_or(0);
+    let mut bodies = vec![vec![]; links];
+    for (link, body) in topology.link_of_body().into_iter().zip(&topology.body) {
         if let (Some(link), Some(body)) = (link, body) {
             bodies[link].push(&spec.bodies[*body]);
         }
@@ -205,19 +239,72 @@ fn has_second_moments(body: PseudoInertia<Expr>) -> bool {
     body.second.full().0.as_flattened().iter().any(|entry| !entry.is_zero())
 }
 
-/// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are.
-fn check_moved(joint: &JointSpec, link: &Link<Expr>, moved: Load, beyond: Load, diags: &mut Diagnostics) {
-    let (name, child) = (&joint.name, &joint.child);
-    let place = &joint.name.place;
-    let moves = if link.motion == Motion::Revolute { moved.inertia } else { moved.mass };
-    if !moves {
-        let message =
-            format!("the joint `{name}` moves no mass: neither `{child}` nor what it carries has any");
-        diags.error(Code::MovesNoMass, place, message);
-    } else if !beyond.inertia && link.motion == Motion::Revolute && turns_nothing(link.inertia) {
-        let message = format!("the joint `{name}` turns no inertia: all mass of `{child}` is on its axis");
-        diags.error(Code::MovesNoInertia, place, message);
+/// What each link carries beyond itself.
+fn loads(tree: &Tree<Expr>) -> Vec<Load> {
+    let mut beyond = vec![Load::default(); tree.links.len()];
+    for (k, link) in tree.links.iter().enumerate().rev() {
+        if let Some(parent) = link.parent {
+            beyond[parent] = beyond[parent].and(beyond[k]).and(Load::of(link.inertia));
+        }
     }
+    beyond
+}
+
+/// What a speed moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Effect {
+    NoMass,
+    NoInertia,
+    Inertia,
+}
+
+/// What the speed of a link moves, as far as that can be said without its configuration.
+fn effect(link: &Link<Expr>, beyond: Load) -> Effect {
+    let moved = beyond.and(Load::of(link.inertia));
+    let turns = |is_nothing: bool| match (moved.inertia, !beyond.inertia && is_nothing) {
+        (false, _) => Effect::NoMass,
+        (true, true) => Effect::NoInertia,
+        (true, false) => Effect::Inertia,
+    };
+    match link.motion {
+        _ if !link.passive.armature.is_zero() => Effect::Inertia,
+        Motion::Revolute => turns(turns_nothing(link.inertia)),
+        Motion::Prismatic | Motion::Free if !moved.mass => Effect::NoMass,
+        Motion::Prismatic => Effect::Inertia,
+        Motion::Ball => turns(is_on_a_line(eigenvalues_of(link.inertia.second))),
+        Motion::Free => turns(is_on_a_line(second_moments(link.inertia))),
+    }
+}
+
+/// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are. `v` is its first speed.
+fn check_moved(joint: &JointSpec, v: usize, loads: &[Load], tree: &Tree<Expr>, diags: &mut Diagnostics) {
+    let (name, child) = (&joint.name, &joint.child);
+    // Followers move with it; the links that share a coordinate move something if one of them does.
+    let effect_of = |speed: usize| {
+        let driven = tree.links.iter().zip(loads).filter(|(link, _)| link.drive.v == speed);
+        driven.map(|(link, beyond)| effect(link, *beyond)).max()
+    };
+    let least = (v..v + joint.kind.speeds()).filter_map(effect_of).min();
+    let place = &name.place;
+    match least {
+        Some(Effect::NoMass) => {
+            let message =
+                format!("the joint `{name}` moves no mass: neither `{child}` nor what it carries has any");
+            diags.error(Code::MovesNoMass, place, message);
+        }
+        Some(Effect::NoInertia) => {
+            let is_round = matches!(joint.kind, JointKind::Ball | JointKind::Free);
+            let where_ = if is_round { "on one line" } else { "on its axis" };
+            let message = format!("the joint `{name}` turns no inertia: all mass of `{child}` is {where_}");
+            diags.error(Code::MovesNoInertia, place, message);
+        }
+        _ => {}
+    }
+}
+
+/// Whether second moments are those of mass on one line, through the point that they are about.
+fn is_on_a_line(moments: Option<[f64; 3]>) -> bool {
+    moments.is_some_and(|[low, middle, high]| low.abs() + middle.abs() <= 1e-12 * high.abs())
 }
 
 fn turns_nothing(inertia: PseudoInertia<Expr>) -> bool {
@@ -283,8 +370,12 @@ fn allowing(body: &BodySpec) -> String {
 fn second_moments(inertia: PseudoInertia<Expr>) -> Option<[f64; 3]> {
     let mass = inertia.mass.as_number().filter(|mass| mass.signum() > 0)?;
     let inverse = Expr::Constant(Number::ONE.checked_div(mass)?);
-    let about_com = inertia.second + Symmetric3::outer_self(-inverse, inertia.first);
-    let Symmetric3 { xx, yy, zz, xy, xz, yz } = about_com;
+    eigenvalues_of(inertia.second + Symmetric3::outer_self(-inverse, inertia.first))
+}
+
+/// The eigenvalues of a tensor, in order; `None` if one of its parts is a field's.
+fn eigenvalues_of(tensor: Symmetric3<Expr>) -> Option<[f64; 3]> {
+    let Symmetric3 { xx, yy, zz, xy, xz, yz } = tensor;
     let mut entries = [0.0; 6];
     for (entry, expr) in entries.iter_mut().zip([xx, yy, zz, xy, xz, yz]) {
         *entry = expr.as_number()?.to_f64();

@@ -3,6 +3,8 @@
 //! A link's frame has z along its axis. From the child body's frame `B` as users know it to the link's
 //! frame `J` leads a constant rotation, so that axes along x, y and z cost nothing.
 
+use super::Motion;
+use super::composition::composition;
 use super::values::{Result, Values};
 use crate::diagnostics::{Code, Diagnostic};
 use crate::spatial::{Matrix3, Pose, Vector3};
@@ -11,9 +13,10 @@ use crate::symbolic::{Expr, Number};
 
 /// The poses of a joint.
 pub(super) struct Geometry<'g> {
-    /// `X_PJ`: the link's frame in the parent body's frame at zero; of a fixed joint, the child's.
-    pub(super) link: Pose<Expr<'g>>,
-    /// `X_JB`: the child body's frame in the link's.
+    /// `X_PJ`: the frame of each of the joint's links at zero, in that of the one before it; of the first in the
+    /// parent body's. Of a joint that is fixed, the child's frame in the parent's.
+    pub(super) links: Vec<Pose<Expr<'g>>>,
+    /// `X_JB`: the child body's frame in the last link's.
     pub(super) body: Pose<Expr<'g>>,
 }
 
@@ -28,47 +31,105 @@ type Matrix<'g> = Matrix3<Expr<'g>>;
 
 impl<'g> Geometry<'g> {
     pub(super) fn of(joint: &JointSpec, values: &Values<'_, 'g>, snap: Snap) -> Result<Self> {
-        let geometry = match joint.placement.as_ref().map(|placement| &placement.kind) {
+        let Self { links, body } = match joint.keys.placement.as_ref().map(|placement| &placement.kind) {
             Some(PlacementKind::Dh(parts)) => Self::dh(joint.kind, &Dh::of(parts, values, snap)?),
             Some(PlacementKind::ModifiedDh(parts)) => Self::modified_dh(&Dh::of(parts, values, snap)?),
             Some(PlacementKind::Screw { axis, through }) => {
                 let line =
                     Pose { rotation: frame_along(axis, values)?, translation: values.vector(through)? };
-                Self { link: line, body: line.inverse() * written_pose(joint, values, snap)? }
+                let body = line.inverse() * written_pose(joint, values, snap)?;
+                Self { links: frames_of_links(joint.kind, line), body }
             }
-            None => {
-                let pose = written_pose(joint, values, snap)?;
-                let turned = match &joint.axis {
-                    Some(axis) => Pose::rotation(frame_along(axis, values)?),
-                    None => Pose::identity(),
-                };
-                Self { link: pose * turned, body: turned.inverse() }
-            }
+            None => Self::about_axes(joint, values, written_pose(joint, values, snap)?)?,
         };
-        let Self { link, body } = geometry;
-        for pose in [link, body] {
+        for pose in links.iter().chain([&body]) {
             let finite = |entry: &Expr| entry.as_number().is_none_or(Number::is_finite);
             if !pose.rotation.0.as_flattened().iter().chain(&pose.translation.0).all(finite) {
                 let message = format!("the placement of the joint `{}` is out of range", joint.name);
                 return Err(Diagnostic::new(Code::NumberOutOfRange, &joint.place, message));
             }
         }
-        Ok(Self { link: snapped_pose(link, snap), body: snapped_pose(body, snap) })
+        let links = links.into_iter().map(|pose| snapped_pose(pose, snap)).collect();
+        Ok(Self { links, body: snapped_pose(body, snap) })
+    }
+
+    /// The axes are in the child's frame, which at zero has the pose `written`.
+    fn about_axes(joint: &JointSpec, values: &Values<'_, 'g>, written: Pose<Expr<'g>>) -> Result<Self> {
+        let frames = joint.axes.iter().map(|axis| Ok(Pose::rotation(frame_along(axis, values)?)));
+        let frames = frames.collect::<Result<Vec<_>>>()?;
+        Ok(match (frames.as_slice(), joint.axes.as_slice()) {
+            ([first, second], [_, axis]) => {
+                let between = first.inverse() * *second;
+                // The cosines of the second axis to the plane across the first one.
+                let across = [between.rotation.0[0][2], between.rotation.0[1][2]];
+                let is_nothing = |cosine: &Expr| {
+                    cosine.as_number().is_some_and(|cosine| cosine.to_f64().abs() <= PARALLEL)
+                };
+                if across.iter().all(is_nothing) {
+                    let message = format!("the two axes of the joint `{}` are parallel", joint.name);
+                    return Err(Diagnostic::new(Code::AxesParallel, &axis.place, message));
+                }
+                Self { links: vec![written * *first, between], body: second.inverse() }
+            }
+            ([only], _) => Self { links: frames_of_links(joint.kind, written * *only), body: only.inverse() },
+            _ => Self { links: frames_of_links(joint.kind, written), body: Pose::identity() },
+        })
     }
 
     /// `Rz(θ)·Tz(d)·Tx(a)·Rx(α)`: the joint moves before the link's length and twist.
     fn dh(kind: JointKind, dh: &Dh<'g>) -> Self {
         let beyond = dh.along_x();
-        match kind {
-            JointKind::Prismatic => Self { link: dh.about_z(), body: beyond },
-            JointKind::Fixed => Self { link: dh.about_z() * beyond, body: Pose::identity() },
-            _ => Self { link: Pose::rotation(dh.theta), body: Pose::translation(dh.along(2, dh.d)) * beyond },
-        }
+        let (link, body) = match kind {
+            JointKind::Prismatic => (dh.about_z(), beyond),
+            JointKind::Fixed => (dh.about_z() * beyond, Pose::identity()),
+            _ => (Pose::rotation(dh.theta), Pose::translation(dh.along(2, dh.d)) * beyond),
+        };
+        Self { links: vec![link], body }
     }
 
     /// `Rx(α)·Tx(a)·Rz(θ)·Tz(d)`: the joint moves last.
     fn modified_dh(dh: &Dh<'g>) -> Self {
-        Self { link: dh.along_x() * dh.about_z(), body: Pose::identity() }
+        Self { links: vec![dh.along_x() * dh.about_z()], body: Pose::identity() }
+    }
+
+    /// `X_PB`: the child body's frame in the parent's where the joint stands still, its one coordinate at `at`.
+    /// `pitch` is one unless the joint is helical.
+    pub(super) fn welded(
+        &self,
+        kind: JointKind,
+        at: Expr<'g>,
+        pitch: Expr<'g>,
+        snap: Snap,
+    ) -> Pose<Expr<'g>> {
+        let along = |distance: Expr<'g>| Pose::translation(Vector3([Expr::ZERO, Expr::ZERO, distance]));
+        let parts = composition(kind).iter().map(|(motion, _)| match motion {
+            Motion::Prismatic => along(pitch * at),
+            _ => Pose::rotation(turn_about(2, at, snap)),
+        });
+        let moved = parts.chain([Pose::identity()]);
+        self.links.iter().zip(moved).fold(Pose::identity(), |pose, (link, moved)| pose * *link * moved)
+            * self.body
+    }
+}
+
+/// The largest cosine that is nothing but rounding.
+const PARALLEL: f64 = 1e-12;
+
+/// The frames of a joint's links, for an axis along z of the frame `at`; those that slide in a plane or in space take
+/// x and y of it first.
+fn frames_of_links<'g>(kind: JointKind, at: Pose<Expr<'g>>) -> Vec<Pose<Expr<'g>>> {
+    // Its z is the x of the frame around it; three of them are none.
+    let cycle = || {
+        let columns = aligned(0, false).map(|column| column.map(Expr::Constant));
+        Pose::rotation(Matrix3(columns).transpose())
+    };
+    match kind {
+        JointKind::Planar | JointKind::Translation => vec![at * cycle(), cycle(), cycle()],
+        _ => {
+            let mut links = vec![Pose::identity(); composition(kind).len().max(1)];
+            links[0] = at;
+            links
+        }
     }
 }
 
@@ -107,8 +168,8 @@ impl<'g> Dh<'g> {
 
 /// `at` and `rpy`.
 fn written_pose<'g>(joint: &JointSpec, values: &Values<'_, 'g>, snap: Snap) -> Result<Pose<Expr<'g>>> {
-    let translation = values.vector_or_zero(joint.at.as_ref())?;
-    let rotation = match &joint.rpy {
+    let translation = values.vector_or_zero(joint.keys.at.as_ref())?;
+    let rotation = match &joint.keys.rpy {
         Some(rpy) => rotation_of_rpy(values.vector(rpy)?, snap),
         None => Matrix3::identity(),
     };

@@ -2,7 +2,8 @@
 
 use crate::diagnostics::Code;
 use crate::spec::{
-    AxisKind, BodySpec, Formula, InertiaKind, JointKind, JointSpec, PlacementKind, RobotSpec, Shape,
+    AxisKind, BodySpec, Formula, InertiaKind, JointKeys, JointKind, JointSpec, PlacementKind, RobotSpec,
+    Shape, leaders,
 };
 
 /// What a place needs.
@@ -20,6 +21,20 @@ pub(super) enum Quantity {
     Speed,
     Torque,
     Force,
+    /// Of two turns, or of two distances.
+    Ratio,
+    /// Of a distance to a turn.
+    Pitch,
+    /// Of a turn to a distance.
+    InversePitch,
+    /// A torque for each radian per second.
+    TurningDamping,
+    /// A force for each metre per second.
+    SlidingDamping,
+    /// A torque for each radian.
+    TurningStiffness,
+    /// A force for each metre.
+    SlidingStiffness,
 }
 
 impl Quantity {
@@ -29,12 +44,17 @@ impl Quantity {
             Self::Mass => [1, 0, 0],
             Self::Length => [0, 1, 0],
             Self::Inertia | Self::ProductOfInertia => [1, 2, 0],
-            Self::Angle | Self::Direction => [0, 0, 0],
+            Self::Angle | Self::Direction | Self::Ratio => [0, 0, 0],
             Self::Acceleration => [0, 1, -2],
             Self::AngularSpeed => [0, 0, -1],
             Self::Speed => [0, 1, -1],
-            Self::Torque => [1, 2, -2],
+            Self::Torque | Self::TurningStiffness => [1, 2, -2],
             Self::Force => [1, 1, -2],
+            Self::Pitch => [0, 1, 0],
+            Self::InversePitch => [0, -1, 0],
+            Self::TurningDamping => [1, 2, -1],
+            Self::SlidingDamping => [1, 0, -1],
+            Self::SlidingStiffness => [1, 0, -2],
         }
     }
 
@@ -46,11 +66,17 @@ impl Quantity {
             Self::Inertia | Self::ProductOfInertia => "kg·m²",
             Self::Angle => "rad",
             Self::Acceleration => "m/s²",
-            Self::Direction => "no unit",
+            Self::Direction | Self::Ratio => "no unit",
             Self::AngularSpeed => "rad/s",
             Self::Speed => "m/s",
             Self::Torque => "N·m",
             Self::Force => "N",
+            Self::Pitch => "m/rad",
+            Self::InversePitch => "rad/m",
+            Self::TurningDamping => "N·m·s/rad",
+            Self::SlidingDamping => "N·s/m",
+            Self::TurningStiffness => "N·m/rad",
+            Self::SlidingStiffness => "N/m",
         }
     }
 }
@@ -78,18 +104,66 @@ impl Slot<'_> {
     }
 }
 
+/// The quantities of a joint's one coordinate, and of what acts along it.
+pub(super) struct Along {
+    pub(super) position: Quantity,
+    pub(super) speed: Quantity,
+    pub(super) force: Quantity,
+    inertia: Quantity,
+    damping: Quantity,
+    stiffness: Quantity,
+    gear: Quantity,
+}
+
+impl Along {
+    const TURNING: Self = Self {
+        position: Quantity::Angle,
+        speed: Quantity::AngularSpeed,
+        force: Quantity::Torque,
+        inertia: Quantity::Inertia,
+        damping: Quantity::TurningDamping,
+        stiffness: Quantity::TurningStiffness,
+        gear: Quantity::Ratio,
+    };
+    const SLIDING: Self = Self {
+        position: Quantity::Length,
+        speed: Quantity::Speed,
+        force: Quantity::Force,
+        inertia: Quantity::Mass,
+        damping: Quantity::SlidingDamping,
+        stiffness: Quantity::SlidingStiffness,
+        gear: Quantity::InversePitch,
+    };
+
+    /// Those of a kind of joint, which has one degree of freedom.
+    pub(super) fn of(kind: JointKind) -> &'static Self {
+        if kind == JointKind::Prismatic { &Self::SLIDING } else { &Self::TURNING }
+    }
+
+    /// The quantity of a joint's coordinate for each unit of another joint's.
+    fn ratio(&self, leader: &Self) -> Quantity {
+        match (self.position, leader.position) {
+            (own, of_leader) if own == of_leader => Quantity::Ratio,
+            (Quantity::Length, _) => Quantity::Pitch,
+            _ => Quantity::InversePitch,
+        }
+    }
+}
+
 /// All formulas of a specification, in the order of its lines, options first.
 pub(super) fn slots(spec: &RobotSpec) -> Vec<Slot<'_>> {
     let mut table = Table { slots: vec![], owner: "" };
+    let leaders = leaders(&spec.joints).into_iter().map(|leader| leader.map(|leader| &spec.joints[leader]));
     table.all("gravity", Quantity::Acceleration, spec.options.gravity.iter().flatten());
-    let (mut joints, mut bodies) = (spec.joints.iter().peekable(), spec.bodies.iter().peekable());
+    let (mut joints, mut bodies) =
+        (spec.joints.iter().zip(leaders).peekable(), spec.bodies.iter().peekable());
     loop {
         let joint_first = match (joints.peek(), bodies.peek()) {
-            (Some(joint), Some(body)) => joint.line <= body.line,
+            (Some((joint, _)), Some(body)) => joint.line <= body.line,
             (joint, _) => joint.is_some(),
         };
         match if joint_first { (joints.next(), None) } else { (None, bodies.next()) } {
-            (Some(joint), _) => table.joint(joint),
+            (Some((joint, leader)), _) => table.joint(joint, leader),
             (_, Some(body)) => table.body(body),
             _ => return table.slots,
         }
@@ -129,14 +203,14 @@ impl<'s> Table<'s> {
         }
     }
 
-    fn joint(&mut self, joint: &'s JointSpec) {
+    fn joint(&mut self, joint: &'s JointSpec, leader: Option<&JointSpec>) {
+        let JointSpec { kind, axes, pitch, keys, .. } = joint;
         self.owner = &joint.name.text;
-        if let Some(axis) = &joint.axis {
-            self.axis(&axis.kind);
-        }
-        self.all("at", Quantity::Length, joint.at.iter().flatten());
-        self.all("rpy", Quantity::Angle, joint.rpy.iter().flatten());
-        match joint.placement.as_ref().map(|placement| &placement.kind) {
+        axes.iter().for_each(|axis| self.axis(&axis.kind));
+        self.all("pitch", Quantity::Pitch, pitch);
+        self.all("at", Quantity::Length, keys.at.iter().flatten());
+        self.all("rpy", Quantity::Angle, keys.rpy.iter().flatten());
+        match keys.placement.as_ref().map(|placement| &placement.kind) {
             Some(PlacementKind::Dh(parts)) => self.dh("dh", parts),
             Some(PlacementKind::ModifiedDh(parts)) => self.dh("mdh", parts),
             Some(PlacementKind::Screw { axis, through }) => {
@@ -145,13 +219,33 @@ impl<'s> Table<'s> {
             }
             None => {}
         }
-        let (position, speed, effort) = match joint.kind {
-            JointKind::Prismatic => (Quantity::Length, Quantity::Speed, Quantity::Force),
-            _ => (Quantity::Angle, Quantity::AngularSpeed, Quantity::Torque),
-        };
-        self.constants("limits", position, Code::ConstantNeeded, joint.limits.iter().flatten());
-        self.constants("velocity", speed, Code::ConstantNeeded, &joint.velocity);
-        self.constants("effort", effort, Code::ConstantNeeded, &joint.effort);
+        // Where a joint has none or several, no key has a meaning, which is a mistake of its own.
+        let along = Along::of(*kind);
+        if kind.speeds() <= 1 {
+            self.constants("limits", along.position, Code::ConstantNeeded, keys.limits.iter().flatten());
+            self.constants("velocity", along.speed, Code::ConstantNeeded, &keys.velocity);
+            self.constants("effort", along.force, Code::ConstantNeeded, &keys.effort);
+        }
+        if kind.speeds() == 1 {
+            let leader = leader.filter(|leader| leader.kind.speeds() == 1);
+            self.along(keys, along, leader.map(|leader| Along::of(leader.kind)));
+        }
+    }
+
+    fn along(&mut self, keys: &'s JointKeys, along: &Along, leader: Option<&Along>) {
+        self.all("locked", along.position, &keys.locked);
+        if let Some(leader) = leader {
+            self.all("ratio", along.ratio(leader), &keys.ratio);
+        }
+        self.all("offset", along.position, &keys.offset);
+        self.all("armature", along.inertia, &keys.armature);
+        self.all("rotor", Quantity::Inertia, &keys.rotor);
+        self.all("gear", along.gear, &keys.gear);
+        self.all("damping", along.damping, &keys.damping);
+        self.all("friction", along.force, &keys.friction);
+        self.all("friction_speed", along.speed, &keys.friction_speed);
+        self.all("stiffness", along.stiffness, &keys.stiffness);
+        self.all("rest", along.position, &keys.rest);
     }
 
     fn axis(&mut self, axis: &'s AxisKind) {

@@ -1,16 +1,20 @@
 //! Who carries whom: the order of the joints, and all that can be wrong with it.
 
+use std::ops::Range;
+
 use rustc_hash::FxHashMap;
 
+use super::composition::composition;
+use super::mimic;
 use super::names::frame_type;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
-use crate::spec::{JointKind, JointSpec, Name, RobotSpec};
+use crate::spec::{JointSpec, Name, RobotSpec, leaders, welded};
 
 /// The name of the root.
 pub(super) const WORLD: &str = "world";
 
-/// The most joints there may be.
-const JOINT_LIMIT: usize = 256;
+/// The most links there may be. A joint of several axes moves one for each.
+const LINK_LIMIT: usize = 256;
 
 /// The tree of joints.
 pub(super) struct Topology {
@@ -20,8 +24,21 @@ pub(super) struct Topology {
     pub(super) carrier: Vec<Option<usize>>,
     /// The described body that each joint carries.
     pub(super) body: Vec<Option<usize>>,
-    /// The coordinate of each joint that moves.
-    pub(super) coordinate: Vec<Option<usize>>,
+    /// The links that each joint is made of; none of those that stand still.
+    pub(super) links: Vec<Range<usize>>,
+    /// The first coordinate and the first speed of each joint that has its own.
+    pub(super) coordinate: Vec<Option<Coordinate>>,
+    /// The joint that each joint follows.
+    pub(super) leader: Vec<Option<usize>>,
+}
+
+/// Where the coordinates of a joint begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Coordinate {
+    /// Among all coordinates.
+    pub(super) q: usize,
+    /// Among all speeds.
+    pub(super) v: usize,
 }
 
 impl Topology {
@@ -31,6 +48,10 @@ impl Topology {
         check_size(spec, diags);
         if diags.len() > before {
             return None;
+        }
+        mimic::check(spec, diags);
+        if diags.len() == before {
+            check_motion(spec, diags);
         }
         check_names(spec, diags);
         let carriers = carriers(spec, diags);
@@ -61,39 +82,60 @@ impl Topology {
             order.append(&mut children[joint]);
             next += 1;
         }
-        let mut count = 0;
-        let coordinate = spec.joints.iter().map(|joint| {
-            (joint.kind != JointKind::Fixed).then(|| {
-                count += 1;
-                count - 1
-            })
-        });
+        let is_welded = welded(&spec.joints);
+        let (mut links, mut coordinate) = (vec![], vec![]);
+        let (mut count, mut next) = (0, Coordinate { q: 0, v: 0 });
+        for (joint, is_welded) in spec.joints.iter().zip(is_welded) {
+            let own = if is_welded { 0 } else { composition(joint.kind).len() };
+            links.push(count..count + own);
+            count += own;
+            coordinate.push(joint.has_coordinates().then_some(next));
+            if joint.has_coordinates() {
+                next.q += joint.kind.coordinates();
+                next.v += joint.kind.speeds();
+            }
+        }
         let described: FxHashMap<_, _> =
             spec.bodies.iter().enumerate().map(|(i, body)| (&*body.name.text, i)).collect();
         let body = spec.joints.iter().map(|joint| described.get(&*joint.child.text).copied());
-        Self { order, coordinate: coordinate.collect(), carrier, body: body.collect() }
+        let body = body.collect();
+        Self { order, links, coordinate, leader: leaders(&spec.joints), carrier, body }
     }
 
-    /// The coordinate of the nearest joint from here to the world that moves, this one included.
-    pub(super) fn links(&self) -> Vec<Option<usize>> {
-        let mut links = vec![None; self.carrier.len()];
+    /// The link that the body of each joint is on: the last of the nearest joint from here to the world that moves,
+    /// this one included.
+    pub(super) fn link_of_body(&self) -> Vec<Option<usize>> {
+        let mut link = vec![None; self.carrier.len()];
         for &joint in &self.order {
-            links[joint] = self.coordinate[joint].or_else(|| links[self.carrier[joint]?]);
+            let own = self.links[joint].clone().last();
+            link[joint] = own.or_else(|| link[self.carrier[joint]?]);
         }
-        links
+        link
     }
 }
 
 fn check_size(spec: &RobotSpec, diags: &mut Diagnostics) {
     let place = Place::of(&spec.ident);
-    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
+    let links: usize = moving(spec).map(|joint| composition(joint.kind).len()).sum();
     if spec.joints.is_empty() {
         diags.error(Code::JointMissing, &place, format!("`{}` has no joint", spec.ident));
-    } else if moving > JOINT_LIMIT {
-        diags.error(Code::JointsTooMany, &place, format!("`{}` has {moving} joints that move", spec.ident));
-    } else if moving == 0 {
-        diags.error(Code::DegreesOfFreedomMissing, &place, format!("no joint of `{}` moves", spec.ident));
+    } else if links > LINK_LIMIT {
+        let message = format!("the joints of `{}` move {links} links, {LINK_LIMIT} are allowed", spec.ident);
+        diags.error(Code::JointsTooMany, &place, message);
     }
+}
+
+/// At least one joint moves.
+fn check_motion(spec: &RobotSpec, diags: &mut Diagnostics) {
+    if moving(spec).next().is_none() {
+        let message = format!("no joint of `{}` moves", spec.ident);
+        diags.error(Code::DegreesOfFreedomMissing, &Place::of(&spec.ident), message);
+    }
+}
+
+/// The joints that do not stand still.
+fn moving(spec: &RobotSpec) -> impl Iterator<Item = &JointSpec> {
+    spec.joints.iter().zip(welded(&spec.joints)).filter(|(_, is_welded)| !is_welded).map(|(joint, _)| joint)
 }
 
 /// The joint that carries each body.
@@ -175,11 +217,9 @@ fn check_bodies(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>, diags: &mut
             );
         }
     }
-    for joint in
-        spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed && joint.child.text != WORLD)
-    {
+    for joint in moving(spec) {
         let child = &joint.child;
-        if !described.contains_key(&*child.text) {
+        if child.text != WORLD && !described.contains_key(&*child.text) {
             let message = format!("the joint `{}` moves `{child}`, which no `#[body]` describes", joint.name);
             let loose = spec.bodies.iter().map(|body| &*body.name.text);
             let loose = loose.filter(|name| !carriers.contains_key(name));
@@ -225,18 +265,16 @@ fn check_cycles(spec: &RobotSpec, topology: &Topology, diags: &mut Diagnostics) 
     }
 }
 
-/// A link's parent has the smaller coordinate.
+/// A link's parent is the smaller one, so that joints have their coordinates in the order of their lines.
 fn check_order(spec: &RobotSpec, topology: &Topology, diags: &mut Diagnostics) {
-    let links = topology.links();
-    for (joint, spec_of) in spec.joints.iter().enumerate() {
-        let parent = topology.carrier[joint].and_then(|carrier| links[carrier]);
-        let late = |own: usize| parent.is_some_and(|parent| parent > own);
-        if topology.coordinate[joint].is_some_and(late) {
-            let carrier = spec.joints.iter().enumerate().find(|(i, _)| topology.coordinate[*i] == parent);
-            let Some((_, carrier)) = carrier else { continue };
-            let message =
-                format!("the joint `{}` moves `{}`, and comes after it", carrier.name, spec_of.name);
-            diags.error(Code::ParentAfterChild, &carrier.place, message);
-        }
+    let link = topology.link_of_body();
+    for (joint, late) in spec.joints.iter().enumerate() {
+        let Some(first) = topology.links[joint].clone().next() else { continue };
+        let parent = topology.carrier[joint].and_then(|carrier| link[carrier]);
+        let Some(parent) = parent.filter(|parent| *parent > first) else { continue };
+        let carrier = topology.links.iter().position(|links| links.contains(&parent));
+        let Some(carrier) = carrier.map(|carrier| &spec.joints[carrier]) else { continue };
+        let message = format!("the joint `{}` moves `{}`, and comes after it", carrier.name, late.name);
+        diags.error(Code::ParentAfterChild, &carrier.place, message);
     }
 }

@@ -171,6 +171,11 @@ impl<'s, 'g> Values<'s, 'g> {
         }
     }
 
+    /// The value of a formula, or of nothing.
+    pub(super) fn scalar_or(&self, formula: Option<&Formula>, nothing: Expr<'g>) -> Result<Expr<'g>> {
+        formula.map_or(Ok(nothing), |formula| self.scalar(formula))
+    }
+
     /// The values of three formulas.
     pub(super) fn vector(&self, [x, y, z]: &[Formula; 3]) -> Result<Vector3<Expr<'g>>> {
         Ok(Vector3([self.scalar(x)?, self.scalar(y)?, self.scalar(z)?]))

@@ -145,7 +145,12 @@ fn inertia(entry: Entry) -> Result<InertiaSpec> {
 }
 
 fn matrix(rows: Cursor, place: &Place) -> Result<[[Formula; 3]; 3]> {
-    let rows = rows.items();
+    let mut rows = rows.items();
+    if rows.len() == 3 && !rows.iter_mut().any(|row| row.peek_group(Delimiter::Bracket)) {
+        let message = "`inertia` is a list of three, and neither a diagonal nor a matrix";
+        let wrong = Diagnostic::new(Code::Syntax, place, message);
+        return Err(wrong.help("write `diag(ixx, iyy, izz)`, or all rows: `[[…], […], […]]`"));
+    }
     let wrong =
         values::count_wrong(rows.len(), place, "inertia", &["three rows of three: [[…]", "[…]", "[…]]"]);
     let rows = rows.into_iter().map(|row| values::vector(row, "row", XYZ)).collect::<Result<Vec<_>>>()?;

@@ -86,6 +86,24 @@ impl Cursor {
         matches!(self.tokens.peek(), Some(TokenTree::Group(group)) if group.delimiter() == delimiter)
     }
 
+    /// The identifier that is all there is.
+    pub(super) fn only_ident(&self) -> Option<Ident> {
+        let mut tokens = self.tokens.clone();
+        match (tokens.next(), tokens.next()) {
+            (Some(TokenTree::Ident(ident)), None) => Some(ident),
+            _ => None,
+        }
+    }
+
+    /// Whether there is a `->`, not within a group.
+    pub(super) fn has_arrow(&self) -> bool {
+        let signs = self.tokens.clone().map(|token| match token {
+            TokenTree::Punct(punct) => punct.as_char(),
+            _ => ' ',
+        });
+        signs.collect::<String>().contains("->")
+    }
+
     /// The contents of the group if one with the delimiter is next, and its place.
     pub(super) fn group(&mut self, delimiter: Delimiter) -> Result<Option<(Self, Place)>> {
         if !self.peek_group(delimiter) {

@@ -1,10 +1,11 @@
-//! `#[joint(name: kind(axis), parent -> child, …)]`
+//! `#[joint(name: kind(axis), parent -> child, …)]`, and `#[joint(name, …)]` of a joint that a file has.
 
 use proc_macro2::Delimiter;
 
 use super::cursor::{Cursor, Result};
-use super::values::{self, Entry, fill};
-use super::{Formula, Name};
+use super::keys::JointKeys;
+use super::values::{self, Entry};
+use super::{Formula, FormulaKind, JointKind, Name};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 
 /// A joint as written.
@@ -16,41 +17,37 @@ pub struct JointSpec {
     pub kind: JointKind,
     /// Where the kind was written.
     pub kind_place: Place,
-    /// Its axis in the joint's frame.
-    pub axis: Option<Axis>,
+    /// Its axes in the joint's frame, as many as were written.
+    pub axes: Vec<Axis>,
+    /// How far a helical joint slides for each radian.
+    pub pitch: Option<Formula>,
     /// The body it is on.
     pub parent: Name,
     /// The body it carries.
     pub child: Name,
-    /// `at = [x, y, z]`
-    pub at: Option<[Formula; 3]>,
-    /// `rpy = [r, p, y]`
-    pub rpy: Option<[Formula; 3]>,
-    /// `dh(…)`, `mdh(…)` or `screw(…)`.
-    pub placement: Option<Placement>,
-    /// `limits = [lower, upper]`
-    pub limits: Option<[Formula; 2]>,
-    /// `velocity = …`
-    pub velocity: Option<Formula>,
-    /// `effort = …`
-    pub effort: Option<Formula>,
+    /// All else.
+    pub keys: Box<JointKeys>,
     /// The position of the line among all joints and bodies.
     pub line: usize,
     /// The whole of it.
     pub place: Place,
 }
 
-/// How a joint moves.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum JointKind {
-    /// Turns, between limits if it has some.
-    Revolute,
-    /// Turns without end.
-    Continuous,
-    /// Slides.
-    Prismatic,
-    /// Does not move.
-    Fixed,
+/// `#[joint(name, …)]`: more on a joint that a file has.
+#[derive(Clone, Debug)]
+pub struct JointAmendment {
+    /// The joint's name.
+    pub name: Name,
+    /// What replaces what the file says, or adds to it.
+    pub keys: Box<JointKeys>,
+    /// The whole of it.
+    pub place: Place,
+}
+
+/// A line of either form.
+pub(super) enum JointLine {
+    Joint(Box<JointSpec>),
+    Amendment(JointAmendment),
 }
 
 /// A direction as written.
@@ -101,14 +98,34 @@ pub enum PlacementKind {
     },
 }
 
-const KEYS: &[&str] = &["at", "rpy", "dh", "mdh", "screw", "limits", "velocity", "effort"];
 const XYZ: [&str; 3] = ["x", "y", "z"];
 
 impl JointSpec {
-    /// Reads the contents of the attribute. Options that fail are reported and left out.
+    /// Whether the joint has coordinates of its own: it is neither welded nor does it follow another one.
+    pub fn has_coordinates(&self) -> bool {
+        self.kind != JointKind::Fixed && self.keys.locked.is_none() && self.keys.mimic.is_none()
+    }
+
+    /// Whether the joint's speeds have inputs: unless it is said, those of all but `free` ones.
+    pub fn is_actuated(&self) -> bool {
+        self.keys.actuated.as_ref().map_or(self.kind != JointKind::Free, |switch| switch.is_on)
+    }
+}
+
+impl JointLine {
+    /// Reads the contents of the attribute. Keys that fail are reported and left out.
     pub(super) fn parse(input: Cursor, place: Place, line: usize, diags: &mut Diagnostics) -> Option<Self> {
-        let mut items = input.items().into_iter();
-        let head = items.next().ok_or_else(|| missing("name: kind(axis)", &place)).and_then(head);
+        let mut items = input.items();
+        if items.len() > 1
+            && !items.iter().any(Cursor::has_arrow)
+            && let Some(name) = items.first().and_then(Cursor::only_ident)
+        {
+            let keys = Box::new(JointKeys::parse(items.into_iter().skip(1), diags));
+            return Some(Self::Amendment(JointAmendment { name: Name::new(&name), keys, place }));
+        }
+        let keys = items.split_off(items.len().min(2)).into_iter();
+        let mut items = items.into_iter();
+        let head = items.next().ok_or_else(|| missing("name: kind(axis)", &place)).and_then(Head::parse);
         let edge = match (&head, items.next()) {
             (Err(_), None) => Ok(None),
             // The comma behind the head may be what is missing.
@@ -121,54 +138,20 @@ impl JointSpec {
             _ => mistake,
         };
         let (head, edge) = (diags.keep(head.map_err(form)), diags.keep(edge.map_err(form)).flatten());
-        let mut options = Options::default();
-        for item in items {
-            if let Some(entry) = diags.keep(Entry::parse(item, "key of a joint", KEYS)) {
-                options.read(entry, diags);
-            }
-        }
-        let ((name, kind, kind_place, axis), (parent, child)) = (head?, edge?);
-        let Options { at, rpy, placement, limits, velocity, effort } = options;
-        Some(Self {
+        let keys = Box::new(JointKeys::parse(keys, diags));
+        let (Head { name, kind, kind_place, axes, pitch }, (parent, child)) = (head?, edge?);
+        Some(Self::Joint(Box::new(JointSpec {
             name,
             kind,
             kind_place,
-            axis,
+            axes,
+            pitch,
             parent,
             child,
-            at,
-            rpy,
-            placement,
-            limits,
-            velocity,
-            effort,
+            keys,
             line,
             place,
-        })
-    }
-}
-
-#[derive(Default)]
-struct Options {
-    at: Option<[Formula; 3]>,
-    rpy: Option<[Formula; 3]>,
-    placement: Option<Placement>,
-    limits: Option<[Formula; 2]>,
-    velocity: Option<Formula>,
-    effort: Option<Formula>,
-}
-
-impl Options {
-    fn read(&mut self, entry: Entry, diags: &mut Diagnostics) {
-        let key = entry.key.clone();
-        match key.text.as_str() {
-            "at" => fill(&mut self.at, &key, entry.vector(XYZ), diags),
-            "rpy" => fill(&mut self.rpy, &key, entry.vector(["roll", "pitch", "yaw"]), diags),
-            "limits" => fill(&mut self.limits, &key, entry.vector(["lower", "upper"]), diags),
-            "velocity" => fill(&mut self.velocity, &key, entry.scalar(), diags),
-            "effort" => fill(&mut self.effort, &key, entry.scalar(), diags),
-            _ => fill(&mut self.placement, &key, placement(entry), diags),
-        }
+        })))
     }
 }
 
@@ -176,21 +159,61 @@ fn missing(what: &str, place: &Place) -> Diagnostic {
     Diagnostic::new(Code::Syntax, place, format!("the joint has no `{what}`"))
 }
 
-/// `name: kind(axis)`
-fn head(mut item: Cursor) -> Result<(Name, JointKind, Place, Option<Axis>)> {
-    let Some(name) = item.ident() else { return Err(item.expected("the joint's name")) };
-    if !item.punct(':') {
-        return Err(item.expected("`:` after the joint's name"));
+/// `name: kind(axis, …)`
+struct Head {
+    name: Name,
+    kind: JointKind,
+    kind_place: Place,
+    axes: Vec<Axis>,
+    pitch: Option<Formula>,
+}
+
+impl Head {
+    fn parse(mut item: Cursor) -> Result<Self> {
+        let Some(name) = item.ident() else { return Err(item.expected("the joint's name")) };
+        if !item.punct(':') {
+            return Err(item.expected("`:` after the joint's name"));
+        }
+        let Some(kind) = item.ident() else { return Err(item.expected("the joint's kind")) };
+        let kind_name = Name::new(&kind);
+        let kind = JointKind::named(&kind_name)?;
+        let (axes, pitch) = match item.group(Delimiter::Parenthesis)? {
+            Some((inner, place)) => parts(kind, inner.items(), &place)?,
+            None => (vec![], None),
+        };
+        item.finish("the joint's kind")?;
+        Ok(Self { name: Name::new(&name), kind, kind_place: kind_name.place, axes, pitch })
     }
-    let Some(kind) = item.ident() else { return Err(item.expected("the joint's kind")) };
-    let kind_name = Name::new(&kind);
-    let kind = JointKind::named(&kind_name)?;
-    let axis = match item.group(Delimiter::Parenthesis)? {
-        Some((inner, _)) => Some(Axis::parse(inner)?),
-        None => None,
+}
+
+/// The axes, and the pitch of a helical joint, which may stand alone where the axis is given elsewhere.
+fn parts(kind: JointKind, mut items: Vec<Cursor>, place: &Place) -> Result<(Vec<Axis>, Option<Formula>)> {
+    let (count, needed) = (items.len(), kind.parts());
+    let wrong = || {
+        let help = format!("give {}: `{}`", needed.join(" and "), kind.example());
+        values::count_wrong(count, place, kind.name(), needed).help(help)
     };
-    item.finish("the joint's kind")?;
-    Ok((Name::new(&name), kind, kind_name.place, axis))
+    let is_lone = kind == JointKind::Helical && count == 1;
+    // The axis of a joint that has none is for those to judge who know why.
+    if count > 0 && count != needed.len() && !needed.is_empty() && !is_lone {
+        return Err(wrong());
+    }
+    let mut pitch = items.pop_if(|_| kind == JointKind::Helical);
+    let is_vector = is_lone && pitch.as_mut().is_some_and(|item| item.peek_group(Delimiter::Bracket));
+    let pitch = pitch.filter(|_| !is_vector).map(Formula::parse).transpose()?;
+    if is_vector || (is_lone && pitch.as_ref().is_some_and(is_named_axis)) {
+        return Err(wrong());
+    }
+    Ok((items.into_iter().map(Axis::parse).collect::<Result<_>>()?, pitch))
+}
+
+/// Whether a lone formula is an axis rather than a pitch.
+fn is_named_axis(formula: &Formula) -> bool {
+    match &formula.kind {
+        FormulaKind::Name(name) => XYZ.contains(&&*name.text),
+        FormulaKind::Negative(inner) => is_named_axis(inner),
+        _ => false,
+    }
 }
 
 /// `parent -> child`
@@ -202,30 +225,6 @@ fn edge(mut item: Cursor) -> Result<(Name, Name)> {
     let Some(child) = item.ident() else { return Err(item.expected("the body that the joint carries")) };
     item.finish("the child")?;
     Ok((Name::new(&parent), Name::new(&child)))
-}
-
-impl JointKind {
-    const ALL: [(&'static str, Self); 4] = [
-        ("revolute", Self::Revolute),
-        ("continuous", Self::Continuous),
-        ("prismatic", Self::Prismatic),
-        ("fixed", Self::Fixed),
-    ];
-
-    fn named(name: &Name) -> Result<Self> {
-        let found = Self::ALL.iter().find(|(known, _)| *known == name.text);
-        found.map(|(_, kind)| *kind).ok_or_else(|| {
-            let message = format!("there is no kind of joint `{name}`");
-            let known = Self::ALL.iter().map(|(known, _)| *known);
-            let unknown = Diagnostic::new(Code::JointKindUnknown, &name.place, message);
-            match name.text.as_str() {
-                "ball" | "spherical" | "free" | "floating" | "planar" | "universal" | "cylindrical"
-                | "helical" => unknown
-                    .help("use a chain of revolute and prismatic joints; a body between two needs no mass"),
-                _ => unknown.suggest(&name.text, known),
-            }
-        })
-    }
 }
 
 impl Axis {
@@ -247,25 +246,28 @@ impl Axis {
     }
 }
 
-fn placement(mut entry: Entry) -> Result<Placement> {
-    let place = entry.place.clone();
-    const PARTS: [&str; 4] = ["a", "alpha", "d", "theta"];
-    let kind = match entry.key.text.as_str() {
-        "dh" => PlacementKind::Dh(Box::new(entry.arguments(PARTS)?)),
-        "mdh" => PlacementKind::ModifiedDh(Box::new(entry.arguments(PARTS)?)),
-        _ => {
-            let (contents, inner) = entry.parenthesised()?;
-            let items = contents.items();
-            let count = items.len();
-            let Ok([axis, mut through]) = <[Cursor; 2]>::try_from(items) else {
-                return Err(values::count_wrong(count, &inner, "screw", &["an axis", "a point on it"]));
-            };
-            if through.ident().is_some_and(|key| key == "through") && !through.punct('=') {
-                return Err(through.expected("`=` after `through`"));
+impl Placement {
+    /// Reads `dh(…)`, `mdh(…)` or `screw(…)`.
+    pub(super) fn parse(mut entry: Entry) -> Result<Self> {
+        let place = entry.place.clone();
+        const PARTS: [&str; 4] = ["a", "alpha", "d", "theta"];
+        let kind = match entry.key.text.as_str() {
+            "dh" => PlacementKind::Dh(Box::new(entry.arguments(PARTS)?)),
+            "mdh" => PlacementKind::ModifiedDh(Box::new(entry.arguments(PARTS)?)),
+            _ => {
+                let (contents, inner) = entry.parenthesised()?;
+                let items = contents.items();
+                let count = items.len();
+                let Ok([axis, mut through]) = <[Cursor; 2]>::try_from(items) else {
+                    return Err(values::count_wrong(count, &inner, "screw", &["an axis", "a point on it"]));
+                };
+                if through.ident().is_some_and(|key| key == "through") && !through.punct('=') {
+                    return Err(through.expected("`=` after `through`"));
+                }
+                let through = Box::new(values::vector(through, "through", XYZ)?);
+                PlacementKind::Screw { axis: Axis::parse(axis)?, through }
             }
-            let through = Box::new(values::vector(through, "through", XYZ)?);
-            PlacementKind::Screw { axis: Axis::parse(axis)?, through }
-        }
-    };
-    Ok(Placement { kind, place })
+        };
+        Ok(Self { kind, place })
+    }
 }

@@ -6,6 +6,9 @@ mod body;
 mod cursor;
 mod formula;
 mod joint;
+mod keys;
+mod kind;
+mod mimic;
 mod options;
 mod text;
 mod unit;
@@ -15,14 +18,18 @@ mod values;
 pub use body::{BodySpec, InertiaKind, InertiaSpec, Shape, Solid};
 pub use cursor::nested_deeper_than;
 pub use formula::{Factor, Formula, FormulaKind, Function, Term};
-pub use joint::{Axis, AxisKind, JointKind, JointSpec, Placement, PlacementKind};
-pub use options::Options;
+pub use joint::{Axis, AxisKind, JointAmendment, JointSpec, Placement, PlacementKind};
+pub use keys::{JointKeys, Switch, default_friction_speed};
+pub use kind::JointKind;
+pub use mimic::{leaders, welded};
+pub use options::{BaseSpec, Options};
 pub use text::plain;
 pub use unit::Unit;
 
 use std::fmt;
 
 use cursor::Cursor;
+use joint::JointLine;
 use syn::spanned::Spanned;
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
@@ -77,6 +84,8 @@ pub struct RobotSpec {
     pub options: Options,
     /// `#[joint(…)]`, in order.
     pub joints: Vec<JointSpec>,
+    /// `#[joint(name, …)]` of the joints of a file, until they are read.
+    pub amendments: Vec<JointAmendment>,
     /// `#[body(…)]`, in order.
     pub bodies: Vec<BodySpec>,
 }
@@ -97,6 +106,7 @@ pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
         fields: fields(input, diags),
         options: Options::default(),
         joints: vec![],
+        amendments: vec![],
         bodies: vec![],
     };
     for (line, attribute) in input.attrs.iter().enumerate() {
@@ -123,7 +133,11 @@ impl RobotSpec {
         };
         let input = Cursor::new(list.tokens.clone(), list.delimiter.span().close());
         match helper {
-            "joint" => self.joints.extend(JointSpec::parse(input, place, line, diags)),
+            "joint" => match JointLine::parse(input, place, line, diags) {
+                Some(JointLine::Joint(joint)) => self.joints.push(*joint),
+                Some(JointLine::Amendment(amendment)) => self.amendments.push(amendment),
+                None => {}
+            },
             "body" => self.bodies.extend(BodySpec::parse(list.tokens.clone(), input, place, line, diags)),
             _ => self.options.read(input, diags),
         }

@@ -1,9 +1,9 @@
-//! `#[dynamics(gravity = […], urdf = "…", crate = "…", snap = off, passive = off, outputs(…), allow(…))]`
+//! `#[dynamics(gravity = […], urdf = "…", base = free, crate = "…", snap = off, passive = off, outputs(…), allow(…))]`
 
 use super::cursor::{Cursor, Result};
 use super::urdf::FilePath;
 use super::values::{Entry, fill};
-use super::{Formula, Name};
+use super::{Formula, Name, Switch};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 
 /// What holds for the whole robot. Several attributes add up.
@@ -13,19 +13,30 @@ pub struct Options {
     pub gravity: Option<[Formula; 3]>,
     /// `urdf = "path"`: the file that has the robot.
     pub urdf: Option<FilePath>,
+    /// `base = free | fixed`: how the root of the file stands in the world.
+    pub base: Option<BaseSpec>,
     /// `crate = "path"`: where the run-time crate is found.
     pub krate: Option<syn::Path>,
     /// `snap = on | off`: whether rotations next to right angles become right angles.
-    pub snap: Option<bool>,
+    pub snap: Option<Switch>,
     /// `passive = on | off`: whether the damping and friction of a file act.
-    pub passive: Option<bool>,
+    pub passive: Option<Switch>,
     /// `outputs(…)`: the methods to emit; without it, all.
     pub outputs: Option<Vec<Name>>,
     /// `allow(…)`
     pub allow: Option<Vec<Name>>,
 }
 
-const KEYS: &[&str] = &["gravity", "urdf", "crate", "snap", "passive", "outputs", "allow"];
+/// `base = free` or `base = fixed`.
+#[derive(Clone, Debug)]
+pub struct BaseSpec {
+    /// Whether the root moves freely.
+    pub is_free: bool,
+    /// Where it was written.
+    pub place: Place,
+}
+
+const KEYS: &[&str] = &["gravity", "urdf", "base", "crate", "snap", "passive", "outputs", "allow"];
 
 impl Options {
     /// The path of the run-time crate.
@@ -35,7 +46,12 @@ impl Options {
 
     /// Whether to snap, which is the default.
     pub fn snaps(&self) -> bool {
-        self.snap.unwrap_or(true)
+        self.snap.as_ref().is_none_or(|switch| switch.is_on)
+    }
+
+    /// Whether the damping and friction of a file act, which is the default.
+    pub fn is_passive(&self) -> bool {
+        self.passive.as_ref().is_none_or(|switch| switch.is_on)
     }
 
     pub(super) fn read(&mut self, input: Cursor, diags: &mut Diagnostics) {
@@ -46,8 +62,9 @@ impl Options {
                 "gravity" => fill(&mut self.gravity, &key, entry.vector(["x", "y", "z"]), diags),
                 "crate" => fill(&mut self.krate, &key, crate_path(entry), diags),
                 "urdf" => fill(&mut self.urdf, &key, file_path(entry), diags),
-                "passive" => fill(&mut self.passive, &key, switch(entry), diags),
-                "snap" => fill(&mut self.snap, &key, switch(entry), diags),
+                "base" => fill(&mut self.base, &key, base(entry), diags),
+                "passive" => fill(&mut self.passive, &key, entry.switch(), diags),
+                "snap" => fill(&mut self.snap, &key, entry.switch(), diags),
                 "outputs" => fill(&mut self.outputs, &key, entry.names(), diags),
                 _ => fill(&mut self.allow, &key, entry.names(), diags),
             }
@@ -79,18 +96,18 @@ fn crate_path(entry: Entry) -> Result<syn::Path> {
     })
 }
 
-/// `= on`, `= off`
-fn switch(entry: Entry) -> Result<bool> {
-    let mut value = entry.assigned()?;
-    let Some(word) = value.ident() else { return Err(value.expected("`on` or `off`")) };
-    let name = Name::new(&word);
-    value.finish("the switch")?;
-    match name.text.as_str() {
-        "on" => Ok(true),
-        "off" => Ok(false),
+/// `= free`, `= fixed`
+fn base(entry: Entry) -> Result<BaseSpec> {
+    const BASE: &str = "`free` or `fixed`";
+    let word = entry.name(BASE)?;
+    let is_free = match word.text.as_str() {
+        "free" => true,
+        "fixed" => false,
         _ => {
-            let message = format!("expected `on` or `off`, found `{name}`");
-            Err(Diagnostic::new(Code::Syntax, &name.place, message).help("write `snap = on` or `snap = off`"))
+            let message = format!("expected {BASE}, found `{word}`");
+            let wrong = Diagnostic::new(Code::Syntax, &word.place, message);
+            return Err(wrong.help("write `base = free` or `base = fixed`"));
         }
-    }
+    };
+    Ok(BaseSpec { is_free, place: word.place })
 }

@@ -3,6 +3,7 @@
 use proc_macro2::Delimiter;
 
 use super::cursor::{Cursor, Result};
+use super::keys::Switch;
 use super::{Formula, Name};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 
@@ -42,13 +43,43 @@ impl Entry {
     /// `= [a, b, …]`, exactly as many as `parts` names.
     pub(super) fn vector<const N: usize>(self, parts: [&str; N]) -> Result<[Formula; N]> {
         let key = self.key.text.clone();
-        vector(self.assigned()?, &key, parts)
+        let mut value = self.assigned()?;
+        if !value.peek_group(Delimiter::Bracket) {
+            let list = format!("[{}]", parts.join(", "));
+            let wrong = value.expected(&format!("`{list}`"));
+            return Err(match key.as_str() {
+                "gravity" => wrong.help("give the acceleration of free fall: `gravity = [0, 0, -9.81]`"),
+                _ => wrong.help(format!("write `{key} = {list}`")),
+            });
+        }
+        vector(value, &key, parts)
     }
 
     /// `(a, b, …)`, exactly as many as `parts` names.
     pub(super) fn arguments<const N: usize>(mut self, parts: [&str; N]) -> Result<[Formula; N]> {
         let (arguments, place) = self.parenthesised()?;
         formulas(arguments.items(), &place, &self.key.text, parts)
+    }
+
+    /// `= name`
+    pub(super) fn name(self, what: &str) -> Result<Name> {
+        name(self.assigned()?, what)
+    }
+
+    /// `= on`, `= off`
+    pub(super) fn switch(self) -> Result<Switch> {
+        let key = self.key.text.clone();
+        let word = self.name("`on` or `off`")?;
+        let is_on = match word.text.as_str() {
+            "on" => true,
+            "off" => false,
+            _ => {
+                let message = format!("expected `on` or `off`, found `{word}`");
+                let wrong = Diagnostic::new(Code::Syntax, &word.place, message);
+                return Err(wrong.help(format!("write `{key} = on` or `{key} = off`")));
+            }
+        };
+        Ok(Switch { is_on, place: word.place })
     }
 
     /// The contents of `(…)`.

@@ -45,9 +45,11 @@ const REPLACED: &[(Code, &str, &str)] = &[
     // Joints
     (Code::JointKindUnknown, r#"type="revolute""#, r#"type="revolut""#),
     (Code::JointKindUnknown, r#"type="revolute""#, r#"type="ball""#),
-    (Code::JointUnsupported, r#"type="revolute""#, r#"type="floating""#),
-    (Code::JointUnsupported, r#"type="revolute""#, r#"type="planar""#),
-    (Code::JointUnsupported, "<limit", r#"<mimic joint="q"/><limit"#),
+    (Code::MimicCycle, "<limit", r#"<mimic joint="q"/><limit"#),
+    (Code::MimicUnknown, "<limit", r#"<mimic joint="qq" multiplier="2"/><limit"#),
+    (Code::ElementMissing, "<limit", r#"<mimic multiplier="2"/><limit"#),
+    (Code::NumberInvalid, "<limit", r#"<mimic joint="q" multiplier="2x"/><limit"#),
+    (Code::NameReserved, "<limit", r#"<mimic joint="q&#x202E;"/><limit"#),
     (Code::AxisZero, r#"<axis xyz="0 0 1"/>"#, r#"<axis xyz="0 -0 0"/>"#),
     (Code::ElementMissing, r#"<axis xyz="0 0 1"/>"#, "<axis/>"),
     (Code::LimitsMissing, r#"<limit lower="-1" upper="1" effort="10" velocity="2"/>"#, ""),
@@ -56,15 +58,19 @@ const REPLACED: &[(Code, &str, &str)] = &[
     (Code::ElementMissing, r#" type="revolute""#, ""),
     (Code::ElementMissing, r#"<parent link="base"/>"#, ""),
     (Code::ElementMissing, r#"<child link="a"/>"#, "<child/>"),
-    (Code::PassiveUnsupported, "<limit", r#"<dynamics damping="0.5" friction="0.0"/><limit"#),
-    (Code::PassiveUnsupported, "<limit", r#"<dynamics armature="0.5"/><limit"#),
     (Code::PassiveNegative, "<limit", r#"<dynamics damping="-0.5"/><limit"#),
+    (Code::PassiveNegative, "<limit", r#"<dynamics friction="-0.5"/><limit"#),
+    (Code::PassiveUnsupported, "<limit", r#"<dynamics dampng="0.5"/><limit"#),
+    (Code::PassiveUnsupported, "<limit", r#"<dynamics spring_stiffness="0.5"/><limit"#),
+    (Code::NumberInvalid, "<limit", r#"<dynamics damping="0.5 N"/><limit"#),
     // Names
     (Code::ElementMissing, r#"link name="base""#, "link"),
     (Code::ElementMissing, r#"joint name="q""#, "joint"),
     (Code::NameReserved, r#"link name="base""#, r#"link name="""#),
     (Code::NameReserved, r#"joint name="q""#, r#"joint name=" ""#),
     (Code::NameReserved, r#"joint name="q""#, r#"joint name="a&#10;b""#),
+    (Code::NameReserved, r#"joint name="q""#, r#"joint name="a&#x202E;b""#),
+    (Code::NameReserved, r#"link name="base""#, r#"link name="&#x2067;base""#),
     (Code::NameDuplicate, r#"<link name="base"/>"#, r#"<link name="base"/><link name="base"/>"#),
     // Elements and attributes
     (Code::KeyUnknown, "<limit", "<limits"),
@@ -94,6 +100,18 @@ const REPLACED: &[(Code, &str, &str)] = &[
     (Code::JointMissing, ARM, r#"<robot name="arm"><link name="base"/></robot>"#),
 ];
 
+/// Two joints, one on the other: the first of a kind, and each with more in it.
+fn two_joints(kind: &str, first: &str, second: &str) -> String {
+    let body =
+        r#"<inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>"#;
+    format!(
+        r#"<robot name="two"><link name="base"/><link name="a">{body}</link><link name="b">{body}</link>
+<joint name="p" type="{kind}"><parent link="base"/><child link="a"/>{first}</joint>
+<joint name="q" type="continuous"><parent link="a"/><child link="b"/><axis xyz="0 0 1"/>{second}</joint>
+</robot>"#
+    )
+}
+
 /// Links and joints that hang together in a way that they must not.
 fn trees() -> Vec<(Code, String)> {
     let joint = |name: &str, parent: &str, child: &str| {
@@ -114,6 +132,10 @@ fn trees() -> Vec<(Code, String)> {
         (Code::Cycle, tree(&["a", "b"], &[["p", "a", "a"], ["q", "a", "b"]])),
         (Code::MovesNoMass, tree(&["a", "b"], &[["p", "a", "b"]])),
         (Code::NameReserved, tree(&["a", "2nd"], &[["p", "a", "2nd"]])),
+        (Code::KeyNotOfKind, two_joints("floating", r#"<dynamics damping="1"/>"#, "")),
+        (Code::KeyNotOfKind, two_joints("planar", r#"<mimic joint="q"/>"#, "")),
+        (Code::MimicUnfit, two_joints("planar", "", r#"<mimic joint="p"/>"#)),
+        (Code::MimicUnfit, two_joints("fixed", "", r#"<mimic joint="p"/>"#)),
         (Code::WorldIsChild, tree(&["a", "world"], &[["p", "a", "world"]])),
         (Code::NameDuplicate, tree(&["a", "b", "c"], &[["q", "a", "b"], ["q", "b", "c"]])),
         (Code::NamesCollide, tree(&["a", "tool/0", "tool_0"], &[["p", "a", "tool/0"], ["q", "a", "tool_0"]])),
@@ -164,6 +186,44 @@ fn every_mistake_about_a_file_is_explained() {
             .unwrap();
     }
     insta::assert_snapshot!(table);
+}
+
+/// Mistakes beside the arm's file, in which the root is `base` and the one joint is `q`, which carries `a`.
+const BESIDE: &[(Code, &str)] = &[
+    (Code::JointUnknown, "#[joint(qq, damping = 0.1)]"),
+    (Code::JointUnknown, "#[joint(elbow, damping = 0.1)]"),
+    (Code::NameDuplicate, "#[joint(q, damping = 0.1)] #[joint(q, friction = 0.1)]"),
+    (Code::NameDuplicate, "#[joint(r: fixed, a -> b)] #[joint(r, at = [0, 0, 1])]"),
+    (Code::KeysConflict, "#[joint(q, screw(z, [0, 0, 0]))]"),
+    (Code::KeyUnknown, "#[joint(q, dampng = 0.1)]"),
+    (Code::PassiveNegative, "#[joint(q, damping = -0.1)]"),
+    (Code::UnitMismatch, "#[joint(q, stiffness = 3kg)]"),
+    (Code::DegreesOfFreedomMissing, "#[joint(q, locked = 30deg)]"),
+    (Code::LimitsInverted, "#[joint(q, limits = [1, 0])]"),
+    (Code::MimicCycle, "#[joint(q, mimic = q)]"),
+    (Code::ParentTwice, "#[dynamics(base = free)] #[joint(rail: prismatic(x), world -> base)]"),
+    (Code::NameDuplicate, "#[dynamics(base = free)] #[joint(root_joint: fixed, a -> b)]"),
+];
+
+#[test]
+fn every_mistake_beside_a_file_is_explained() {
+    let mut table = String::new();
+    for (code, lines) in BESIDE {
+        let text = format!("#[dynamics(urdf = \"arm.urdf\")] {lines} struct Arm;");
+        let found = generate_with(&syn::parse_str(&text).unwrap(), |_| Ok(ARM.as_bytes().to_vec()));
+        let found = found.unwrap_err().take();
+        assert_eq!(found.iter().map(|found| found.code).collect::<Vec<_>>(), [*code], "{lines}: {found:#?}");
+        writeln!(table, "{code} in {lines}\n    {}\n    help: {}", found[0].message, found[0].help_text())
+            .unwrap();
+    }
+    insta::assert_snapshot!(table);
+}
+
+#[test]
+fn the_world_cannot_be_free() {
+    let found = mistakes_in(&ARM.replace("\"base\"", "\"world\""), "base = free");
+    let message = "the root of the file is the link `world`, which cannot move";
+    assert_eq!((found[0].code, found[0].message.as_str(), found.len()), (Code::WorldIsChild, message, 1));
 }
 
 /// A file that is wrong in many places says so in one go.

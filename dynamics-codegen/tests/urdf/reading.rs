@@ -43,7 +43,11 @@ const FULL: &str = r##"<?xml version="1.0" encoding="utf-8"?>
     <limit lower="0" upper="0"/>
   </joint>
   <link name="base_link"><inertial><mass value="10"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
-  <transmission name="t"><joint name="wrist"/></transmission>
+  <transmission name="t">
+    <type>transmission_interface/SimpleTransmission</type>
+    <joint name="wrist"><hardwareInterface>EffortJointInterface</hardwareInterface></joint>
+    <actuator name="m"><mechanicalReduction>50</mechanicalReduction></actuator>
+  </transmission>
   <gazebo reference="hand"><sensor name="imu"/></gazebo>
 </robot>
 "##;
@@ -92,9 +96,9 @@ fn coordinates_follow_the_document_as_far_as_the_tree_allows() {
     let frames: Vec<_> = model.tree.frames.iter().map(|frame| frame.name.as_str()).collect();
     assert_eq!(frames, ["hand", "fore/arm", "upper_arm", "base_link"]);
     assert_eq!(model.tree.base.mass.as_number().map(|mass| mass.to_f64()), Some(10.0));
-    assert_eq!(model.joints[1].limits.effort, 5.0);
-    assert_eq!(model.joints[1].limits.upper, f64::INFINITY);
-    assert_eq!(model.joints[0].limits.upper, 0.0);
+    assert_eq!(model.joints[1].limits[0].effort, 5.0);
+    assert_eq!(model.joints[1].limits[0].upper, f64::INFINITY);
+    assert_eq!(model.joints[0].limits[0].upper, 0.0);
 }
 
 /// Several branches, each written in a strange order: none waits for what does not carry it.

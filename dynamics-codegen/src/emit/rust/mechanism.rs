@@ -34,8 +34,8 @@ impl Emitter<'_, '_> {
             }
         }
         constants.push_str("        const LIMITS: &'static [JointLimits] = &[\n");
-        for joint in &model.joints {
-            let _ = writeln!(constants, "            {},", limits(joint.limits));
+        for each in model.joints.iter().flat_map(|joint| &joint.limits) {
+            let _ = writeln!(constants, "            {},", limits(*each));
         }
         constants.push_str("        ];\n        const COST: Costs = Costs {\n");
         for method in written.iter().filter(|written| !methods::takes_robot(written.method)) {

@@ -7,7 +7,7 @@ use super::frames::frames_module;
 use super::item::{bounded, without_bounds};
 use crate::diagnostics::Diagnostics;
 use crate::model::names::frame_type;
-use crate::spec::{self, JointKind, RobotSpec};
+use crate::spec::{self, RobotSpec};
 
 /// Impls of everything that the robot would have had, none of which is ever run: for the scalar and the size that
 /// can be read from the mistaken input, and for all where they cannot.
@@ -20,20 +20,20 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
 
     let (scalar, of_struct) = scalar(&spec);
     let free_scalar = if scalar == FREE_SCALAR { quote!(__T: Scalar,) } else { quote!() };
-    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed).count();
-    let (n, free_size) = match moving {
-        0 => (quote!(__N), quote!(const __N: usize,)),
-        _ if !is_read => (quote!(__N), quote!(const __N: usize,)),
-        n => (quote!(#n), quote!()),
+    // Of a robot with a file, the file has the joints.
+    let is_read = is_read && spec.options.urdf.is_none();
+    let [nq, nv, nu] = if is_read { sizes(&spec) } else { [0; 3] };
+    let (n_q, n, free_size) = match nv {
+        0 => (quote!(__N), quote!(__N), quote!(const __N: usize,)),
+        _ => (quote!(#nq), quote!(#nv), quote!()),
     };
-    let (x, u, free_sizes) = match moving {
-        _ if !free_size.is_empty() => (quote!(__X), quote!(__U), quote!(const __X: usize, const __U: usize,)),
-        n => {
-            let x = 2 * n;
-            (quote!(#x), quote!(#n), quote!())
+    let (x, u, free_sizes) = match nv {
+        0 => (quote!(__X), quote!(__U), quote!(const __X: usize, const __U: usize,)),
+        nv => {
+            let x = 2 * nv;
+            (quote!(#x), quote!(#nu), quote!())
         }
     };
-    let size = if free_size.is_empty() { moving } else { 0 };
 
     let core = spec.options.crate_path();
     let (name, vis) = (&input.ident, &input.vis);
@@ -72,59 +72,68 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
             use #core::__private::*;
             impl<#parameters> #robot #bounds { #prepare }
             impl<#parameters> Mechanism for #robot #bounds {
-                const NQ: usize = #size;
-                const NV: usize = #size;
-                const NU: usize = #size;
+                const NQ: usize = #nq;
+                const NV: usize = #nv;
+                const NU: usize = #nu;
                 const NAME: &'static str = "";
                 const JOINT_NAMES: &'static [&'static str] = &[];
                 const BODY_NAMES: &'static [&'static str] = &[];
                 const LIMITS: &'static [JointLimits] = &[];
                 const COST: Costs = Costs::ZERO;
             }
-            impl<#generics> Dynamics<#scalar, #n, #n> for #robot #bounds {
-                fn mass_matrix(&self, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
-                fn coriolis_matrix(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
-                fn gravity_forces(&self, q: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn bias_forces(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn inverse_dynamics(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn forward_dynamics(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
-                fn kinetic_energy(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
-                fn potential_energy(&self, q: &SVector<#scalar, #n>) -> #scalar { loop {} }
-                fn lagrangian(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
+            impl<#generics> Dynamics<#scalar, #n_q, #n> for #robot #bounds {
+                fn mass_matrix(&self, q: &SVector<#scalar, #n_q>) -> SMatrix<#scalar, #n, #n> { loop {} }
+                fn coriolis_matrix(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, #n> { loop {} }
+                fn gravity_forces(&self, q: &SVector<#scalar, #n_q>) -> SVector<#scalar, #n> { loop {} }
+                fn bias_forces(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn inverse_dynamics(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn forward_dynamics(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+                fn kinetic_energy(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
+                fn potential_energy(&self, q: &SVector<#scalar, #n_q>) -> #scalar { loop {} }
+                fn lagrangian(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>) -> #scalar { loop {} }
             }
-            impl<#generics> DynamicsDerivatives<#scalar, #n, #n> for #robot #bounds {
-                fn inverse_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> InverseDynamicsDerivatives<#scalar, #n> { loop {} }
-                fn forward_dynamics_derivatives(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> ForwardDynamicsDerivatives<#scalar, #n> { loop {} }
+            impl<#generics> DynamicsDerivatives<#scalar, #n_q, #n> for #robot #bounds {
+                fn inverse_dynamics_derivatives(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> InverseDynamicsDerivatives<#scalar, #n> { loop {} }
+                fn forward_dynamics_derivatives(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, tau: &SVector<#scalar, #n>) -> ForwardDynamicsDerivatives<#scalar, #n> { loop {} }
             }
-            impl<#generics> CentroidalDynamics<#scalar, #n, #n> for #robot #bounds {
+            impl<#generics> CentroidalDynamics<#scalar, #n_q, #n> for #robot #bounds {
                 fn total_mass(&self) -> #scalar { loop {} }
-                fn center_of_mass(&self, q: &SVector<#scalar, #n>) -> SVector<#scalar, 3> { loop {} }
-                fn centroidal_momentum_matrix(&self, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
+                fn center_of_mass(&self, q: &SVector<#scalar, #n_q>) -> SVector<#scalar, 3> { loop {} }
+                fn centroidal_momentum_matrix(&self, q: &SVector<#scalar, #n_q>) -> SMatrix<#scalar, 6, #n> { loop {} }
             }
-            impl<#generics const __P: usize> Regressor<#scalar, #n, #n, __P> for #robot #bounds {
-                fn regressor(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
+            impl<#generics const __P: usize> Regressor<#scalar, #n_q, #n, __P> for #robot #bounds {
+                fn regressor(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
                 fn inertial_parameters(&self) -> SVector<#scalar, __P> { loop {} }
             }
-            impl<#generics const __P: usize> BaseRegressor<#scalar, #n, #n, __P> for #robot #bounds {
-                fn base_regressor(&self, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
+            impl<#generics const __P: usize> BaseRegressor<#scalar, #n_q, #n, __P> for #robot #bounds {
+                fn base_regressor(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
                 fn base_parameters(&self) -> SVector<#scalar, __P> { loop {} }
             }
-            impl<#generics> Configuration<#scalar, #n, #n> for #robot #bounds {
-                fn integrate(&self, q: &SVector<#scalar, #n>, delta: &SVector<#scalar, #n>) -> SVector<#scalar, #n> { loop {} }
+            impl<#generics> Configuration<#scalar, #n_q, #n> for #robot #bounds {
+                fn integrate(&self, q: &SVector<#scalar, #n_q>, delta: &SVector<#scalar, #n>) -> SVector<#scalar, #n_q> { loop {} }
             }
-            impl<#generics #free_sizes> StateSpaceModel<#scalar, #n, #n, #x, #u> for #robot #bounds {
+            impl<#generics #free_sizes> StateSpaceModel<#scalar, #n_q, #n, #x, #u> for #robot #bounds {
                 fn input_map(&self) -> SMatrix<#scalar, #n, #u> { loop {} }
             }
-            #(impl<#generics> Frame<#robot, #scalar, #n, #n> for #module::#frames #bounds {
+            #(impl<#generics> Frame<#robot, #scalar, #n_q, #n> for #module::#frames #bounds {
                 const NAME: &'static str = "";
-                fn pose(robot: &#robot, q: &SVector<#scalar, #n>) -> Pose<#scalar> { loop {} }
-                fn acceleration(robot: &#robot, q: &SVector<#scalar, #n>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, 6> { loop {} }
-                fn jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
-                fn world_jacobian(robot: &#robot, q: &SVector<#scalar, #n>) -> SMatrix<#scalar, 6, #n> { loop {} }
+                fn pose(robot: &#robot, q: &SVector<#scalar, #n_q>) -> Pose<#scalar> { loop {} }
+                fn acceleration(robot: &#robot, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SVector<#scalar, 6> { loop {} }
+                fn jacobian(robot: &#robot, q: &SVector<#scalar, #n_q>) -> SMatrix<#scalar, 6, #n> { loop {} }
+                fn world_jacobian(robot: &#robot, q: &SVector<#scalar, #n_q>) -> SMatrix<#scalar, 6, #n> { loop {} }
             })*
             };
         };
     }
+}
+
+/// NQ, NV and NU of a specification that was read without mistakes.
+fn sizes(spec: &RobotSpec) -> [usize; 3] {
+    let joints = spec.joints.iter().filter(|joint| joint.has_coordinates());
+    joints.fold([0; 3], |[nq, nv, nu], joint| {
+        let (coordinates, speeds) = (joint.kind.coordinates(), joint.kind.speeds());
+        [nq + coordinates, nv + speeds, nu + if joint.is_actuated() { speeds } else { 0 }]
+    })
 }
 
 const FREE_SCALAR: &str = "__T";

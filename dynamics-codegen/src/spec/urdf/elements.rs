@@ -51,6 +51,17 @@ impl<'a> Element<'a> {
         self.node.children().filter(|node| node.is_element()).map(move |node| Element { node, source })
     }
 
+    /// The elements within, however deep, and this one.
+    pub(super) fn descendants(&self) -> impl Iterator<Item = Element<'a>> + use<'a> {
+        let source = self.source;
+        self.node.descendants().filter(|node| node.is_element()).map(move |node| Element { node, source })
+    }
+
+    /// The text within.
+    pub(super) fn content(&self) -> &'a str {
+        self.node.text().unwrap_or_default().trim()
+    }
+
     /// Its attributes without prefix.
     pub(super) fn texts(&self) -> impl Iterator<Item = Text<'a>> + use<'a> {
         let (source, tag) = (self.source, self.tag());

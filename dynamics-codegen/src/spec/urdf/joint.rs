@@ -5,7 +5,7 @@ use super::numbers::value;
 use super::reader::Reader;
 use super::source::quoted;
 use crate::diagnostics::{Code, Diagnostic};
-use crate::spec::{Axis, AxisKind, Formula, FormulaKind, JointKind, JointSpec, Name, Unit};
+use crate::spec::{Axis, AxisKind, Formula, FormulaKind, JointKeys, JointKind, JointSpec, Name, Unit};
 use crate::symbolic::Number;
 
 const PARTS: [&str; 7] = ["origin", "parent", "child", "axis", "limit", "dynamics", "mimic"];
@@ -21,39 +21,35 @@ pub(super) fn read<'a>(reader: &mut Reader<'_>, element: Element<'a>, line: usiz
     let child = link_of(reader, child, "`<child link=\"…\"/>`", element);
     let [at, rpy] = reader.origin(origin);
     let kind = kind_text.and_then(|text| kind_of(reader, text));
-    let moves = kind.is_some_and(|kind| kind != JointKind::Fixed);
-    if let Some(mimic) = mimic.filter(|_| moves) {
-        let message = format!("{} mimics another one", reader.owner());
-        let unsupported = Diagnostic::new(Code::JointUnsupported, &mimic.place(), message);
-        reader.diags.push(unsupported.help("take `<mimic>` out to make the joint free, or make it `fixed`"));
-    }
-    if let Some(dynamics) = dynamics.filter(|_| moves) {
-        read_dynamics(reader, dynamics);
-    }
-    for unused in [mimic, dynamics].into_iter().flatten().filter(|_| kind == Some(JointKind::Fixed)) {
-        reader.ignore(format!("`<{}>`", unused.tag()), unused.place());
+    let axis = kind.and_then(|kind| axis_of(reader, axis, kind, element));
+    let mut keys = Box::new(JointKeys { at, rpy, ..JointKeys::default() });
+    match kind {
+        Some(JointKind::Fixed) => {
+            for unused in [mimic, dynamics, limit].into_iter().flatten() {
+                reader.ignore(format!("`<{}>`", unused.tag()), unused.place());
+            }
+        }
+        Some(kind) => {
+            read_mimic(reader, mimic, kind, &mut keys);
+            read_dynamics(reader, dynamics, &mut keys);
+            read_limits(reader, limit, kind, &mut keys, element);
+        }
+        None => {}
     }
     let (kind, kind_text) = (kind?, kind_text?);
-    let axis = axis_of(reader, axis, kind, element);
-    let mut joint = JointSpec {
+    reader.report.joints += 1;
+    Some(JointSpec {
         name,
         kind,
         kind_place: kind_text.place(),
-        axis,
+        axes: axis.into_iter().collect(),
+        pitch: None,
         parent: parent?,
         child: child?,
-        at,
-        rpy,
-        placement: None,
-        limits: None,
-        velocity: None,
-        effort: None,
+        keys,
         line,
         place: element.place(),
-    };
-    read_limits(reader, limit, &mut joint, element);
-    reader.report.joints += 1;
-    Some(joint)
+    })
 }
 
 fn link_of<'a>(
@@ -70,25 +66,24 @@ fn link_of<'a>(
 }
 
 fn kind_of<'a>(reader: &mut Reader<'_>, text: Text<'a>) -> Option<JointKind> {
-    const KINDS: [&str; 6] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar"];
-    let (owner, kind) = (reader.owner(), quoted(text.value));
-    let wrong = match text.value {
-        "revolute" => return Some(JointKind::Revolute),
-        "continuous" => return Some(JointKind::Continuous),
-        "prismatic" => return Some(JointKind::Prismatic),
-        "fixed" => return Some(JointKind::Fixed),
-        "floating" | "planar" => {
-            let message = format!("{owner} is {kind}, which is not supported yet");
-            let help = "use a chain of `prismatic` and `continuous` joints; links between two need no mass";
-            Diagnostic::new(Code::JointUnsupported, &text.place(), message).help(help)
-        }
-        _ => {
-            let message = format!("{owner} is {kind}, and there is no such kind of joint");
-            Diagnostic::new(Code::JointKindUnknown, &text.place(), message).suggest(text.value, KINDS)
-        }
-    };
-    reader.diags.push(wrong);
-    None
+    const KINDS: [(&str, JointKind); 6] = [
+        ("revolute", JointKind::Revolute),
+        ("continuous", JointKind::Continuous),
+        ("prismatic", JointKind::Prismatic),
+        ("fixed", JointKind::Fixed),
+        ("floating", JointKind::Free),
+        ("planar", JointKind::Planar),
+    ];
+    let found = KINDS.iter().find(|(known, _)| *known == text.value);
+    if found.is_none() {
+        let message =
+            format!("{} is {}, and there is no such kind of joint", reader.owner(), quoted(text.value));
+        let known = KINDS.map(|(known, _)| known);
+        let unknown = Diagnostic::new(Code::JointKindUnknown, &text.place(), message);
+        let unknown = unknown.help(format!("use one of {}", known.join(", ")));
+        reader.diags.push(unknown.suggest(text.value, known));
+    }
+    found.map(|(_, kind)| *kind)
 }
 
 /// The axis; x without `<axis>`, as the format has it.
@@ -99,7 +94,7 @@ fn axis_of<'a>(
     joint: Element<'a>,
 ) -> Option<Axis> {
     let Some(element) = axis else {
-        if kind == JointKind::Fixed {
+        if kind.axes() == 0 {
             return None;
         }
         let place = joint.place();
@@ -107,7 +102,7 @@ fn axis_of<'a>(
         reader.remark(text, place.clone());
         return Some(Axis { kind: AxisKind::Named { index: 0, negative: false }, place });
     };
-    if kind == JointKind::Fixed {
+    if kind.axes() == 0 {
         reader.ignore("`<axis>`", element.place());
         return None;
     }
@@ -133,18 +128,19 @@ fn axis_of<'a>(
     Some(Axis { kind: AxisKind::Vector(Box::new(direction)), place })
 }
 
-/// `<limit lower="…" upper="…" velocity="…" effort="…">`, as far as it means something for the kind of joint.
+/// `<limit lower="…" upper="…" velocity="…" effort="…">`, as far as it means something for the joint.
 fn read_limits<'a>(
     reader: &mut Reader<'_>,
     limit: Option<Element<'a>>,
-    joint: &mut JointSpec,
+    kind: JointKind,
+    keys: &mut JointKeys,
     element: Element<'a>,
 ) {
-    let needs_limits = matches!(joint.kind, JointKind::Revolute | JointKind::Prismatic);
+    let needs_limits = matches!(kind, JointKind::Revolute | JointKind::Prismatic);
     let Some(limit) = limit else {
-        if needs_limits {
+        if needs_limits && keys.mimic.is_none() {
             let message = format!("{} has no `<limit>`", reader.owner());
-            let help = match joint.kind {
+            let help = match kind {
                 JointKind::Revolute => {
                     "add `<limit lower=\"…\" upper=\"…\" effort=\"…\" velocity=\"…\"/>`, or make the joint `continuous`"
                 }
@@ -154,14 +150,14 @@ fn read_limits<'a>(
         }
         return;
     };
-    if joint.kind == JointKind::Fixed {
+    if kind.speeds() > 1 || keys.mimic.is_some() {
         reader.ignore("`<limit>`", limit.place());
         return;
     }
     let _: [_; 0] = reader.elements(limit, []);
     let [lower, upper, velocity, effort] = reader.texts(limit, ["lower", "upper", "velocity", "effort"]);
-    joint.velocity = velocity.and_then(|text| reader.scalar(text, None));
-    joint.effort = effort.and_then(|text| reader.scalar(text, None));
+    keys.velocity = velocity.and_then(|text| reader.scalar(text, None));
+    keys.effort = effort.and_then(|text| reader.scalar(text, None));
     for (name, given) in [("velocity", velocity), ("effort", effort)] {
         if given.is_none() {
             let text = format!("`<limit>` of {} has no `{name}`: it is unlimited", reader.owner());
@@ -174,20 +170,25 @@ fn read_limits<'a>(
         }
         return;
     }
-    let unit = if joint.kind == JointKind::Revolute { Unit::named("rad") } else { None };
+    let unit = unit_of(kind);
     let mut bound = |text: Option<Text<'a>>| match text {
         Some(text) => reader.scalar(text, unit),
         // The default of the format.
         None => Some(Formula { kind: FormulaKind::Number(Number::ZERO, unit), place: limit.place() }),
     };
-    joint.limits = bound(lower).zip(bound(upper)).map(|(lower, upper)| [lower, upper]);
-    look_at_limits(reader, joint, limit);
+    keys.limits = bound(lower).zip(bound(upper)).map(|(lower, upper)| [lower, upper]);
+    look_at_limits(reader, kind, keys, limit);
 }
 
-fn look_at_limits<'a>(reader: &mut Reader<'_>, joint: &JointSpec, limit: Element<'a>) {
-    let Some([lower, upper]) = &joint.limits else { return };
+/// The unit in which a file has the coordinate of a joint, where it has to be said.
+fn unit_of(kind: JointKind) -> Option<Unit> {
+    if kind == JointKind::Prismatic { None } else { Unit::named("rad") }
+}
+
+fn look_at_limits<'a>(reader: &mut Reader<'_>, kind: JointKind, keys: &JointKeys, limit: Element<'a>) {
+    let Some([lower, upper]) = &keys.limits else { return };
     let (Some(low), Some(high)) = (value(lower), value(upper)) else { return };
-    if joint.kind == JointKind::Revolute {
+    if kind == JointKind::Revolute {
         reader.look_at_limit(lower);
         reader.look_at_limit(upper);
     }
@@ -201,22 +202,50 @@ fn look_at_limits<'a>(reader: &mut Reader<'_>, joint: &JointSpec, limit: Element
     }
 }
 
-/// `<dynamics damping="…" friction="…">`: what is not zero acts, unless it is not wanted.
-fn read_dynamics<'a>(reader: &mut Reader<'_>, dynamics: Element<'a>) {
+/// `<mimic joint="…" multiplier="…" offset="…">`
+fn read_mimic<'a>(
+    reader: &mut Reader<'_>,
+    mimic: Option<Element<'a>>,
+    kind: JointKind,
+    keys: &mut JointKeys,
+) {
+    let Some(mimic) = mimic else { return };
+    let _: [_; 0] = reader.elements(mimic, []);
+    let [leader, multiplier, offset] = reader.texts(mimic, ["joint", "multiplier", "offset"]);
+    let leader = reader.needed(leader, "`joint`", mimic);
+    keys.mimic = leader.and_then(|text| reader.named(text, "joint"));
+    keys.ratio = multiplier.and_then(|text| reader.scalar(text, None));
+    keys.offset = offset.and_then(|text| reader.scalar(text, unit_of(kind)));
+    if let Some(offset) = keys.offset.as_ref().filter(|_| kind != JointKind::Prismatic) {
+        reader.look_at_limit(offset);
+    }
+}
+
+/// `<dynamics damping="…" friction="…">`, and `armature`, as some exporters write it: what is not zero acts, unless
+/// it is not wanted.
+fn read_dynamics<'a>(reader: &mut Reader<'_>, dynamics: Option<Element<'a>>, keys: &mut JointKeys) {
+    let Some(dynamics) = dynamics else { return };
     let _: [_; 0] = reader.elements(dynamics, []);
     for text in dynamics.texts() {
         let Some(given) = reader.scalar(text, None) else { continue };
-        let Some(number) = value(&given).filter(|number| !number.is_zero()) else { continue };
-        let (owner, name) = (reader.owner(), quoted(text.name));
-        if number.is_negative() {
-            let message = format!("the {name} of {owner} is {given}: it would drive the joint");
-            reader.diags.error(Code::PassiveNegative, &given.place, message);
-        } else if reader.passive {
-            let message =
-                format!("the {name} of {owner} is {given}, and passive forces are not supported yet");
-            reader.diags.error(Code::PassiveUnsupported, &given.place, message);
-        } else {
+        if value(&given).is_some_and(Number::is_zero) {
+            continue;
+        }
+        let slot = match text.name {
+            "damping" => Some(&mut keys.damping),
+            "friction" => Some(&mut keys.friction),
+            "armature" => Some(&mut keys.armature),
+            _ => None,
+        };
+        if !reader.passive {
             reader.ignore(format!("{} = {given}", text.what()), given.place);
+        } else if let Some(slot) = slot {
+            *slot = Some(given);
+        } else {
+            let (owner, name) = (reader.owner(), quoted(text.name));
+            let message = format!("the {name} of {owner} is {given}, and no such force is known");
+            let unknown = Diagnostic::new(Code::PassiveUnsupported, &given.place, message);
+            reader.diags.push(unknown.suggest(text.name, ["damping", "friction", "armature"]));
         }
     }
 }

@@ -52,7 +52,7 @@ pub fn read(spec: &mut RobotSpec, urdf: Urdf<'_>, diags: &mut Diagnostics) -> Re
         None => return Report::default(),
     };
     let before = diags.len();
-    let mut reader = Reader::new(spec.options.passive != Some(false), diags);
+    let mut reader = Reader::new(spec.options.is_passive(), diags);
     let robot = Element { node: document.root_element(), source: &source };
     let parts = reader.robot(robot);
     let complete = reader.diags.len() == before;

@@ -3,7 +3,7 @@
 use super::elements::{Element, Text};
 use super::numbers;
 use super::report::{Note, Report};
-use super::source::quoted;
+use super::source::{quoted, turns_text};
 use super::tree::Parts;
 use super::{MISTAKE_LIMIT, joint, link};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place, did_you_mean};
@@ -42,9 +42,12 @@ impl<'d> Reader<'d> {
             match element.tag() {
                 "link" if element.is_plain() => parts.links.extend(link::read(self, element, line)),
                 "joint" if element.is_plain() => parts.joints.extend(joint::read(self, element, line)),
-                _ => {
+                tag => {
                     self.owner = "the robot".to_owned();
                     self.unknown(element, &["link", "joint"]);
+                    if tag == "transmission" {
+                        self.list_reductions(element);
+                    }
                 }
             }
             if self.diags.len() >= MISTAKE_LIMIT {
@@ -108,6 +111,26 @@ impl<'d> Reader<'d> {
         None
     }
 
+    /// Lists the gears of a transmission: without the inertia of a rotor they say nothing.
+    fn list_reductions(&mut self, transmission: Element<'_>) {
+        let (mut joint, mut reductions) = (None, vec![]);
+        for element in transmission.descendants() {
+            match element.tag() {
+                "joint" => joint = element.texts().find(|text| text.name == "name"),
+                "mechanicalReduction" => reductions.push(element),
+                _ => {}
+            }
+        }
+        for reduction in reductions {
+            let of = joint.map_or(String::new(), |name| format!(" of the joint {}", quoted(name.value)));
+            let text = format!(
+                "`<mechanicalReduction>` {}{of}: `rotor` and `gear` on the struct say what it moves",
+                quoted(reduction.content())
+            );
+            self.report.ignored.push(Note::new(text, reduction.place()));
+        }
+    }
+
     /// The attributes of an element, by name.
     pub(super) fn texts<'a, const N: usize>(
         &mut self,
@@ -167,12 +190,19 @@ impl<'d> Reader<'d> {
             self.diags.push(missing.help(format!("write `<{tag} name=\"…\">`")));
             return None;
         };
+        self.named(text, tag)
+    }
+
+    /// A name that is fit for one, of an element with the tag.
+    pub(super) fn named<'a>(&mut self, text: Text<'a>, tag: &str) -> Option<Name> {
         let name = self.reference(text)?;
         let value = name.text.as_str();
         let wrong = if value.trim().is_empty() {
             "is empty".to_owned()
         } else if value.chars().any(char::is_control) {
             format!("{} has control characters", quoted(value))
+        } else if value.chars().any(turns_text) {
+            format!("{} has characters that turn the direction of text", quoted(value))
         } else if value.chars().nth(NAME_LIMIT).is_some() {
             format!("{} has more than {NAME_LIMIT} characters", quoted(value))
         } else {

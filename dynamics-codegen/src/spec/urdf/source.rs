@@ -103,7 +103,13 @@ pub fn text_of<'a>(file: &str, bytes: &'a [u8]) -> Result<&'a str, Diagnostic> {
 /// A name or a value for a message: in backticks, and cut where it gets long.
 pub(super) fn quoted(text: &str) -> String {
     let end = text.char_indices().nth(48).map_or(text.len(), |(end, _)| end);
-    let shown: String = text[..end].chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect();
+    let is_harmless = |c: char| !(c.is_control() || turns_text(c));
+    let shown: String = text[..end].chars().map(|c| if is_harmless(c) { c } else { '\u{fffd}' }).collect();
     let more = if end < text.len() { "…" } else { "" };
     format!("`{shown}{more}`")
+}
+
+/// Whether a character, itself without a shape, turns the direction in which what follows is shown.
+pub(super) fn turns_text(c: char) -> bool {
+    matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

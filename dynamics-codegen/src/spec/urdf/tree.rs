@@ -9,11 +9,11 @@ use super::overrides;
 use super::report::{Note, Report};
 use super::source::quoted;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
-use crate::spec::{BodySpec, JointKind, JointSpec, Name, RobotSpec};
+use crate::spec::{BaseSpec, BodySpec, JointKind, JointSpec, Name, RobotSpec, welded};
 
 const WORLD: &str = "world";
 /// Only so many names are compared with one that is not known.
-const NAMES_TO_COMPARE: usize = 1000;
+pub(super) const NAMES_TO_COMPARE: usize = 1000;
 /// So many mistakes of one kind are reported.
 const MISTAKES_OF_A_KIND: usize = 20;
 
@@ -45,11 +45,22 @@ pub(super) fn connect(
     if diags.len() > before {
         return;
     }
+    check_base(&parts, root.as_ref(), spec, diags);
     let Parts { mut links, mut joints } = parts;
+    let amendments = std::mem::take(&mut spec.amendments);
+    overrides::of_joints(&mut joints, amendments, &spec.joints, report, diags);
+    if diags.len() > before {
+        return;
+    }
+    let base = spec.options.base.take();
+    overrides::remark_on_friction(&joints, report);
     let lines = 1 + links.len() + joints.len() + report.ignored.len();
     if let Some(root) = root {
         report.root = root.text.clone();
-        joints.extend(weld_to_world(root, spec));
+        match base {
+            Some(base) if base.is_free => joints.insert(0, free_root(root, &base)),
+            _ => joints.extend(weld_to_world(root, spec)),
+        }
     }
     if let Some(world) = links.iter().position(|link| link.name.text == WORLD) {
         let world = links.remove(world);
@@ -61,15 +72,18 @@ pub(super) fn connect(
     let mut beside = std::mem::take(&mut spec.bodies);
     beside.iter_mut().for_each(|body| body.line += lines);
     joints.extend(spec.joints.drain(..).map(|joint| JointSpec { line: joint.line + lines, ..joint }));
-    spec.bodies = overrides::apply(links, beside, report);
+    spec.bodies = overrides::of_bodies(links, beside, report);
     spec.joints = in_order(joints, report);
 }
 
 fn check_counts(parts: &Parts, spec: &RobotSpec, robot: &Place, diags: &mut Diagnostics) {
+    let is_free = spec.options.base.as_ref().is_some_and(|base| base.is_free);
     let mut joints = parts.joints.iter().chain(&spec.joints).peekable();
     if parts.links.is_empty() {
         let missing = Diagnostic::new(Code::ElementMissing, robot, "the robot has no link");
         diags.push(missing.help("add `<link name=\"…\">`"));
+    } else if is_free {
+        // One link alone has six degrees of freedom.
     } else if joints.peek().is_none() {
         let missing = Diagnostic::new(Code::JointMissing, robot, "the robot has no joint");
         diags.push(missing.help("add `<joint name=\"…\" type=\"…\">` between two links"));
@@ -141,34 +155,74 @@ fn root_of(parts: &Parts, spec: &RobotSpec, diags: &mut Diagnostics) -> Option<N
     Some((*first).clone())
 }
 
+/// The name of the joint that `base = free` makes.
+const ROOT_JOINT: &str = "root_joint";
+
+/// A root that is free is a link that nothing holds.
+fn check_base(parts: &Parts, root: Option<&Name>, spec: &RobotSpec, diags: &mut Diagnostics) {
+    let Some(BaseSpec { place, .. }) = spec.options.base.as_ref().filter(|base| base.is_free) else { return };
+    let (code, message, help) = match root {
+        None => {
+            let is_link = |name: &Name| parts.links.iter().any(|link| link.name.text == name.text);
+            // Without such a joint there is a cycle, which is found where all are.
+            let Some(joint) = spec.joints.iter().find(|joint| is_link(&joint.child)) else { return };
+            let link = quoted(&joint.child.text);
+            let message = format!("the link {link} is carried by `{}`, and by `base = free`", joint.name);
+            (Code::ParentTwice, message, format!("leave out `base`, or the joint `{}`", joint.name))
+        }
+        Some(root) if root.text == WORLD => {
+            let message = "the root of the file is the link `world`, which cannot move".to_owned();
+            (Code::WorldIsChild, message, "leave `base` out, or give the link another name".to_owned())
+        }
+        Some(root) => {
+            let mut all = parts.joints.iter().chain(&spec.joints);
+            let Some(joint) = all.find(|joint| joint.name.text == ROOT_JOINT) else { return };
+            let message = format!("`base = free` is a joint `{ROOT_JOINT}`, and there is one of this name");
+            let help = format!(
+                "rename `{}`, or write `#[joint(name: free, {WORLD} -> {})]` instead of `base`",
+                joint.name, root.text
+            );
+            (Code::NameDuplicate, message, help)
+        }
+    };
+    diags.push(Diagnostic::new(code, place, message).help(help));
+}
+
+/// The joint by which the root moves freely.
+fn free_root(root: Name, base: &BaseSpec) -> JointSpec {
+    joint_of_root(ROOT_JOINT.to_owned(), JointKind::Free, root, base.place.clone())
+}
+
 /// The joint that holds the root in the world, unless the root is the world.
 fn weld_to_world(root: Name, spec: &RobotSpec) -> Option<JointSpec> {
     let place = root.place.clone();
-    let name = |text: String| Name { text, place: place.clone() };
-    (root.text != WORLD).then(|| JointSpec {
-        name: name(format!("{WORLD} -> {}, of {}", root.text, spec.ident)),
-        kind: JointKind::Fixed,
+    let name = format!("{WORLD} -> {}, of {}", root.text, spec.ident);
+    (root.text != WORLD).then(|| joint_of_root(name, JointKind::Fixed, root, place))
+}
+
+fn joint_of_root(name: String, kind: JointKind, root: Name, place: Place) -> JointSpec {
+    let named = |text: String| Name { text, place: place.clone() };
+    JointSpec {
+        name: named(name),
+        kind,
         kind_place: place.clone(),
-        axis: None,
-        parent: name(WORLD.to_owned()),
+        axes: vec![],
+        pitch: None,
+        parent: named(WORLD.to_owned()),
         child: root,
-        at: None,
-        rpy: None,
-        placement: None,
-        limits: None,
-        velocity: None,
-        effort: None,
+        keys: Box::default(),
         line: 0,
         place: place.clone(),
-    })
+    }
 }
 
 /// The joints such that those that move are in the order of their coordinates: as they are written, but that one
 /// written before the one that carries it comes after that, as soon as it can.
 fn in_order(joints: Vec<JointSpec>, report: &mut Report) -> Vec<JointSpec> {
-    let moves = |k: usize| joints[k].kind != JointKind::Fixed;
-    let above = moving_carriers(&joints);
-    report_merged(&joints, &above, report);
+    let is_welded = welded(&joints);
+    let moves = |k: usize| !is_welded[k];
+    let above = moving_carriers(&joints, &is_welded);
+    report_merged(&joints, &above, &is_welded, report);
     let mut beyond = vec![vec![]; joints.len()];
     let mut ready = BinaryHeap::new();
     for k in (0..joints.len()).filter(|k| moves(*k)) {
@@ -176,7 +230,9 @@ fn in_order(joints: Vec<JointSpec>, report: &mut Report) -> Vec<JointSpec> {
             Some(carrier) => beyond[carrier].push(k),
             None => ready.push(Reverse(k)),
         }
-        if let Some(carrier) = above[k].filter(|carrier| *carrier > k) {
+        let have_coordinates = |carrier: usize| [k, carrier].iter().all(|k| joints[*k].has_coordinates());
+        let is_late = |carrier: &usize| *carrier > k && have_coordinates(*carrier);
+        if let Some(carrier) = above[k].filter(is_late) {
             let [name, carrier] = [k, carrier].map(|k| quoted(&joints[k].name.text));
             let text = format!("the joint {name} has a later coordinate than {carrier}, which carries it");
             report.remarks.push(Note::new(text, joints[k].place.clone()));
@@ -195,7 +251,7 @@ fn in_order(joints: Vec<JointSpec>, report: &mut Report) -> Vec<JointSpec> {
 }
 
 /// For each joint the nearest one between it and the world that moves.
-fn moving_carriers(joints: &[JointSpec]) -> Vec<Option<usize>> {
+fn moving_carriers(joints: &[JointSpec], is_welded: &[bool]) -> Vec<Option<usize>> {
     let carriers: FxHashMap<&str, usize> =
         joints.iter().enumerate().map(|(k, joint)| (&*joint.child.text, k)).collect();
     let (mut children, mut queue) = (vec![vec![]; joints.len()], vec![]);
@@ -208,17 +264,26 @@ fn moving_carriers(joints: &[JointSpec]) -> Vec<Option<usize>> {
     let mut above = vec![None; joints.len()];
     while let Some(k) = queue.pop() {
         for &child in &children[k] {
-            above[child] = if joints[k].kind == JointKind::Fixed { above[k] } else { Some(k) };
+            above[child] = if is_welded[k] { above[k] } else { Some(k) };
         }
         queue.append(&mut children[k]);
     }
     above
 }
 
-fn report_merged(joints: &[JointSpec], above: &[Option<usize>], report: &mut Report) {
-    for (joint, above) in joints.iter().zip(above).filter(|(joint, _)| joint.kind == JointKind::Fixed) {
+fn report_merged(joints: &[JointSpec], above: &[Option<usize>], is_welded: &[bool], report: &mut Report) {
+    let carriers = joints.iter().zip(above).zip(is_welded).filter(|(_, is_welded)| **is_welded);
+    for ((joint, above), _) in carriers {
         let carrier = above.map_or(WORLD, |k| &joints[k].child.text);
-        let text = format!("{} is welded to {}", quoted(&joint.child.text), quoted(carrier));
+        let mut text = format!("{} is welded to {}", quoted(&joint.child.text), quoted(carrier));
+        let name = quoted(&joint.name.text);
+        match (&joint.keys.locked, &joint.keys.mimic) {
+            (Some(locked), _) => text += &format!(": the joint {name} is locked at {}", locked.short_text()),
+            (None, Some(leader)) => {
+                text += &format!(": the joint {name} follows {}, which is locked", quoted(&leader.text));
+            }
+            _ => {}
+        }
         report.merged.push(Note::new(text, joint.place.clone()));
     }
 }
