@@ -5,7 +5,7 @@ use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
-use dynamics_codegen::spec::{JointKind, plain};
+use dynamics_codegen::spec::{JointKind, RobotSpec, plain, welded};
 use dynamics_codegen::symbolic::{Graph, Number};
 
 use crate::failure::Failure;
@@ -36,11 +36,9 @@ fn summary(input: &Input, robot: &Robot<'_>) -> String {
     let Read { spec, report, .. } = read;
     let name =
         report.robot.as_deref().map_or(String::new(), |name| format!(" `{}`", name.replace('\n', " ")));
-    let (links, joints, moving) = (report.links, report.joints, read.model.tree.dof());
     let mut text = format!("robot{name} in {}\n", input.name);
-    text += &format!("  {}, {}", counted(links, "link", "links"), counted(joints, "joint", "joints"));
-    text += &format!(" ({moving} moving, {} fixed)\n", joints.saturating_sub(moving));
-    text += &format!("  {}\n", counted(moving, "degree of freedom", "degrees of freedom"));
+    text += &format!("  {}, {}\n", counted(report.links, "link", "links"), joints(spec, report.joints));
+    text += &format!("  {}\n", counted(read.model.tree.dof(), "degree of freedom", "degrees of freedom"));
     text += &format!("  {}\n", mass(read));
     text += "\ntree\n";
     text += &tree::draw(spec, &report.root);
@@ -63,6 +61,19 @@ fn counted(count: usize, one: &str, many: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
 }
 
+/// The joints of the file: that of a free base is not one of them.
+fn joints(spec: &RobotSpec, count: usize) -> String {
+    let of_file: Vec<_> =
+        spec.joints.iter().filter(|joint| matches!(joint.place, Place::Text { .. })).collect();
+    let moving = of_file.iter().filter(|joint| joint.has_coordinates()).count();
+    let is_welded = welded(&spec.joints);
+    let following = spec.joints.iter().zip(is_welded);
+    let following = following.filter(|(joint, still)| joint.keys.mimic.is_some() && !still).count();
+    let fixed = count.saturating_sub(moving + following);
+    let followers = if following > 0 { format!("{following} following, ") } else { String::new() };
+    format!("{} ({moving} moving, {followers}{fixed} fixed)", counted(count, "joint", "joints"))
+}
+
 /// The mass, exactly.
 fn mass(read: &Read<'_>) -> String {
     let tree = &read.model.tree;
@@ -76,19 +87,20 @@ fn mass(read: &Read<'_>) -> String {
 fn limits(read: &Read<'_>) -> String {
     let head = ["", "joint", "kind", "lower", "upper", "velocity", "effort"].map(str::to_owned);
     let mut rows = vec![head.to_vec()];
-    let moving = read.spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed);
+    let moving = read.spec.joints.iter().filter(|joint| joint.has_coordinates());
     let limit = |value: f64, unit: &str| match value.is_finite() {
         true => format!("{value} {unit}"),
         false => "-".to_owned(),
     };
-    for ((k, info), joint) in read.model.joints.iter().enumerate().zip(moving) {
-        let limits = info.limits;
+    for (info, joint) in read.model.joints.iter().zip(moving) {
+        // A joint of several degrees of freedom has none.
+        let Some(limits) = info.limits.first() else { continue };
         let slides = joint.kind == JointKind::Prismatic;
         let [unit, speed, force] = if slides { ["m", "m/s", "N"] } else { ["rad", "rad/s", "N·m"] };
         rows.push(vec![
-            format!("q[{k}]"),
+            tree::entries(&info.q),
             info.name.clone(),
-            tree::kind(joint.kind).to_owned(),
+            joint.kind.name().to_owned(),
             limit(limits.lower, unit),
             limit(limits.upper, unit),
             limit(limits.velocity, speed),
@@ -104,7 +116,9 @@ fn checks(input: &Input, robot: &Robot<'_>) -> String {
     let allowed = input.options.contains("nonphysical_inertia");
     let inertias =
         if allowed { "inertias were not judged" } else { "each body that moves has a possible inertia" };
-    let definite = match Cholesky::of(&Oracle::new(tree).mass_matrix(&vec![0.0; tree.dof()])) {
+    let mut q = vec![0.0; tree.coordinates()];
+    tree.normalise(&mut q);
+    let definite = match Cholesky::of(&Oracle::new(tree).mass_matrix(&q)) {
         Some(_) => "M(q) is positive definite at q = 0",
         None => "M(q) is NOT positive definite at q = 0: forward dynamics has no meaning there",
     };

@@ -1,8 +1,9 @@
 //! The tree of bodies, drawn in text.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use dynamics_codegen::spec::{FormulaKind, JointKind, JointSpec, RobotSpec};
+use dynamics_codegen::spec::{FormulaKind, JointSpec, RobotSpec};
 
 /// Deeper branches are drawn no further to the right.
 const DEEPEST: usize = 48;
@@ -23,9 +24,7 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
         carried.entry(&joint.parent.text).or_default().push(joint);
     }
     carried.values_mut().for_each(|joints| joints.sort_by_key(|joint| joint.line));
-    let moving = spec.joints.iter().filter(|joint| joint.kind != JointKind::Fixed);
-    let coordinates: BTreeMap<&str, usize> =
-        moving.zip(0..).map(|(joint, k)| (&*joint.child.text, k)).collect();
+    let coordinates = coordinates(spec);
     let masses: BTreeMap<&str, f64> =
         spec.bodies.iter().filter_map(|body| Some((&*body.name.text, mass(body)?))).collect();
 
@@ -34,10 +33,13 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
     while let Some(Branch { joint, depth, left, is_last }) = stack.pop() {
         let child = joint.child.text.as_str();
         let mass = masses.get(child).map_or(String::new(), |mass| format!("  {mass} kg"));
-        let carrier = match coordinates.get(child) {
-            Some(k) => format!("{} ({}, q[{k}]) ─ ", joint.name, kind(joint.kind)),
-            None if child == root => String::new(),
-            None => format!("{} (fixed) ─ ", joint.name),
+        let (name, kind) = (&joint.name, joint.kind.name());
+        let carrier = match (coordinates.get(child), &joint.keys.locked, &joint.keys.mimic) {
+            (Some(q), ..) => format!("{name} ({kind}, {}) ─ ", entries(q)),
+            (None, Some(locked), _) => format!("{name} ({kind}, locked at {}) ─ ", locked.short_text()),
+            (None, None, Some(leader)) => format!("{name} ({kind}, follows {leader}) ─ "),
+            _ if child == root => String::new(),
+            _ => format!("{name} ({kind}) ─ "),
         };
         let corner = if is_last { "└─ " } else { "├─ " };
         text += &format!("{left}{corner}{carrier}{child}{mass}\n");
@@ -73,12 +75,18 @@ fn mass(body: &dynamics_codegen::spec::BodySpec) -> Option<f64> {
     }
 }
 
-/// The kind of a joint, as in a URDF.
-pub(crate) fn kind(kind: JointKind) -> &'static str {
-    match kind {
-        JointKind::Revolute => "revolute",
-        JointKind::Continuous => "continuous",
-        JointKind::Prismatic => "prismatic",
-        JointKind::Fixed => "fixed",
-    }
+/// The coordinates of the joint that carries each body.
+fn coordinates(spec: &RobotSpec) -> BTreeMap<&str, Range<usize>> {
+    let own = spec.joints.iter().filter(|joint| joint.has_coordinates());
+    let places = own.scan(0, |next, joint| {
+        let start = *next;
+        *next += joint.kind.coordinates();
+        Some((&*joint.child.text, start..*next))
+    });
+    places.collect()
+}
+
+/// As `q[3]`, or `q[0..7]` of several.
+pub(crate) fn entries(q: &Range<usize>) -> String {
+    if q.len() == 1 { format!("q[{}]", q.start) } else { format!("q[{}..{}]", q.start, q.end) }
 }
