@@ -29,6 +29,21 @@ const ROBOTS: &[&str] = &[
     struct Two { m: f32, r: f32, i: f32 }",
     r"#[joint(q: revolute(x), world -> ball, at = [0, 0, w])] #[body(ball, solid = sphere(2 * m, w * sin(t)))]
     struct Pendulum<T> where T: Send { m: T, w: T, t: T }",
+    r"#[joint(p: universal(x, -y), world -> a, actuated = off)] #[body(a, solid = sphere(m, 1))]
+    #[joint(s: helical(z, 2mm), a -> b, rotor = j, gear = 30, locked = 0.1)] #[body(b, solid = sphere(1, 1))]
+    #[joint(f: prismatic(y), b -> c, mimic = t, ratio = -w, offset = 1mm, damping = 3, friction = 1, friction_speed = 0.1)]
+    #[body(c, solid = sphere(1, 1))]
+    #[joint(t: revolute, b -> d, screw(y, [0, w, 0]), armature = j, stiffness = 2, rest = 30deg)]
+    #[body(d, solid = sphere(1, 1))]
+    #[dynamics(outputs(mass_matrix, bias_forces))]
+    struct Gripper { m: f64, w: f64, j: f64 }",
+    r"#[joint(o: ball, world -> a)] #[body(a, solid = sphere(2, 1))] #[dynamics(outputs(mass_matrix))]
+    #[joint(c: cylindrical(z), a -> b)] #[body(b, solid = sphere(1, 1))]
+    struct Ball;",
+    r"#[joint(o: free, world -> a)] #[body(a, solid = sphere(2, 1))] #[dynamics(outputs(gravity_forces))]
+    #[joint(c: planar([1, 0, 2]), a -> b)] #[body(b, solid = sphere(1, 1))] #[joint(t: translation, a -> d)]
+    #[body(d, solid = point(m))]
+    struct Free<S> { m: S }",
 ];
 
 /// What slips in: numbers of every size, names of every script, signs, groups, and other robots' words.
@@ -39,7 +54,9 @@ const STRANGE: &str = r#"
     + - * / = == -> => , ; : :: . .. ! # $ & | < > ? @ ~ ^ %
     [] () {} [0, 0, 0] [1e200, 0, 0] (((1))) {1} diag(0, 0, 0) diag(1, 1, 3) point(0) sphere(1, 0) tensor(1, 1, 1)
     at = [1, 2, 3], rpy = [1, 1, 1], mass = 0, inertia = diag(0, 0, 1), allow(nonphysical_inertia), limits = [0, 1],
-    revolute fixed prismatic continuous ball mass com solid dh mdh screw through joint body dynamics
+    mimic = q, ratio = 2, locked = 0.1, actuated = off, damping = 0.1, gear = 3, base = free, helical(z, 1mm)
+    revolute fixed prismatic continuous ball free universal(x, y) cylindrical planar translation mimic ratio offset locked
+    armature rotor friction friction_speed stiffness rest base mass com solid dh mdh screw through joint body dynamics
     #[joint(q: fixed, world -> a)] #[body(a)] #[dynamics()] #[joint] #[doc = "x"] struct enum union impl pub where"#;
 
 /// Numbers for the places of numbers.

@@ -301,6 +301,12 @@ const SKEWED: &str = r#"
     #[joint(c: continuous, two -> three, screw(-y, through = [0, 1, 0]))]
     #[body(three, mass = 1, inertia = [[1, 0, 0], [0, 1, 0], [0, 0, 1]])]
     #[joint(tip: fixed, three -> tool, mdh(0, 0, l, 0))]
+    #[joint(d: helical(z, 5mm / (2*pi)), one -> four, rotor = 1e-5, gear = -50, friction = 1, friction_speed = 0.1)]
+    #[body(four, solid = sphere(1, 1))]
+    #[joint(e: revolute([1, 1, 0]), four -> five, mimic = d, ratio = -0.5, offset = 10deg, damping = 0.1)]
+    #[body(five, solid = sphere(1, 1))]
+    #[joint(f: universal(x, [0, 1, 1]), five -> six, actuated = off)] #[body(six, solid = sphere(1, 1))]
+    #[joint(g: prismatic(x), six -> seven, locked = 2cm, stiffness = 3, rest = l)]
     struct Robot<T> { m: T, l: T, i: T, g: T, x: T }"#;
 
 /// All token streams with one token left out, doubled, or changed for another one.

@@ -3,6 +3,8 @@
 
 #[path = "urdf/hostile.rs"]
 mod hostile;
+#[path = "urdf/joints.rs"]
+mod joints;
 #[path = "urdf/mistakes.rs"]
 mod mistakes;
 #[path = "urdf/reading.rs"]

@@ -2,7 +2,7 @@ use dynamics_core::prelude::*;
 
 #[derive(Dynamics)]
 #[joint(shoulder: rotary(z), world -> arm)]
-#[joint(wrist: ball, arm -> hand)]
+#[joint(wrist: spherical, arm -> hand)]
 #[body(arm, mass = m, com = [l, 0, 0], inertia = diag(i, i, i))]
 struct Arm<T> {
     m: T,

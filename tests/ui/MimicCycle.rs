@@ -1,0 +1,20 @@
+use dynamics_core::prelude::*;
+
+#[derive(Dynamics)]
+#[joint(shoulder: revolute(z), world -> arm)]
+#[body(arm, mass = m, com = [l, 0, 0], inertia = diag(i, i, i))]
+#[joint(elbow: revolute(z), arm -> forearm, mimic = wrist)]
+#[body(forearm, mass = m, com = [l, 0, 0], inertia = diag(i, i, i))]
+#[joint(wrist: revolute(z), forearm -> hand, mimic = elbow, ratio = -1)]
+#[body(hand, mass = m, com = [l, 0, 0], inertia = diag(i, i, i))]
+struct Arm<T> {
+    m: T,
+    l: T,
+    i: T,
+}
+
+fn main() {
+    let q = SVector::from([0.1]);
+    let robot = Arm { m: 1.0, l: 0.5, i: 0.1 };
+    println!("{}", robot.mass_matrix(&q)[(0, 0)]);
+}
