@@ -92,6 +92,22 @@ use proc_macro::TokenStream;
 /// negative one they change places. For an oblique normal n the first is `e × n`, of unit length, and the second
 /// `n × (e × n)`; e is the axis to which n is the least inclined, and is itself the first one if n is across it.
 ///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// A drone with a load that swings below it.
+/// #[derive(Dynamics)]
+/// #[joint(base: free, world -> hull)]
+/// #[body(hull, solid = cuboid(1.2kg, [0.3, 0.3, 0.1]))]
+/// #[joint(swing: universal(x, y), hull -> load, at = [0, 0, -5cm])]
+/// #[body(load, com = [0, 0, -0.2], solid = cylinder(200g, 10mm, 0.4))]
+/// struct Drone;
+///
+/// assert_eq!((Drone::NQ, Drone::NV, Drone::NU), (9, 8, 2));
+/// // Five metres up, upright, the load at rest: the hull carries the weight of both.
+/// let q = SVector::from([0.0, 0.0, 5.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0]);
+/// assert!(f64::abs(Drone.gravity_forces(&q)[2] - 1.4 * 9.81) < 1e-13);
+/// ```
+///
 /// Where it is, at zero. Without any of these keys it is at the parent's frame:
 ///
 /// | key | the child's frame in the parent's | default |
@@ -159,9 +175,9 @@ use proc_macro::TokenStream;
 /// }
 ///
 /// let (robot, q, v) = (RackAndPinion { k: 3.0, r: 0.1 }, SVector::from([0.0]), SVector::from([2.0]));
-/// assert!((robot.mass_matrix(&q)[(0, 0)] - (2e-5 * 50.0 * 50.0 + 2.0 * 0.1 * 0.1)).abs() < 1e-15);
+/// assert!(f64::abs(robot.mass_matrix(&q)[(0, 0)] - (2e-5 * 50.0 * 50.0 + 2.0 * 0.1 * 0.1)) < 1e-15);
 /// let passive = 0.1 * 2.0 - 3.0 * core::f64::consts::FRAC_PI_2;
-/// assert!((robot.bias_forces(&q, &v)[0] - passive).abs() < 1e-14);
+/// assert!(f64::abs(robot.bias_forces(&q, &v)[0] - passive) < 1e-14);
 /// assert_eq!(RackAndPinion::<f64>::JOINT_NAMES, ["motor"]);
 /// ```
 ///
