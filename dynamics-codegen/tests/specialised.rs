@@ -27,8 +27,12 @@ fn model_of<'g>(tree: &Tree<f64>, seed: u64) -> Model<'g> {
         parameters: vec![],
         joints: vec![],
         actuated: (0..tree.dof()).collect(),
-        links: (0..tree.links.len())
-            .map(|link| LinkInfo { joint: format!("joint{link}"), body: Some(link) })
+        links: (tree.links.iter().enumerate())
+            .map(|(k, link)| LinkInfo {
+                joint: format!("joint{k}"),
+                body: Some(k),
+                acts: link.motion.speeds() == 1,
+            })
             .collect(),
         tree: tree.map(constant),
     }

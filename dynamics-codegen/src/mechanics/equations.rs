@@ -52,6 +52,8 @@ pub struct Derivation<'g> {
     /// For each link the name of its joint, and the frame of its body.
     joints: Vec<String>,
     bodies: Vec<Option<usize>>,
+    /// Whether the joint's own parameters are those of this link.
+    acts: Vec<bool>,
     /// The coordinates that begin unit quaternions.
     quaternions: Vec<usize>,
     /// Derived when first asked for.
@@ -78,6 +80,7 @@ impl<'g> Derivation<'g> {
             kinematic,
             joints: model.links.iter().map(|link| link.joint.clone()).collect(),
             bodies: model.links.iter().map(|link| link.body).collect(),
+            acts: model.links.iter().map(|link| link.acts).collect(),
             quaternions: model.tree.quaternions().collect(),
             regressor: OnceCell::new(),
             base_regressor: OnceCell::new(),
@@ -350,6 +353,7 @@ impl<'g> Derivation<'g> {
             tree: &self.kinematic,
             bodies: &self.bodies,
             joints: &self.joints,
+            acts: &self.acts,
             coupling: &self.coupling,
             state: [&self.q, &self.v, &self.a],
         }

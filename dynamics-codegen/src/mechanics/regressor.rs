@@ -46,6 +46,8 @@ pub struct Regressed<'t, S> {
     pub bodies: &'t [Option<usize>],
     /// The names of the joints of each link.
     pub joints: &'t [String],
+    /// Whether the joint's own parameters are those of this link.
+    pub acts: &'t [bool],
     /// From the robot's speeds to those of the columns.
     pub coupling: &'t Coupling<S>,
     /// Coordinates, speeds and accelerations.
@@ -99,11 +101,11 @@ impl<S: Scalar> Regressed<'_, S> {
     /// Those of a link's joint, if it has one degree of freedom.
     pub fn of_joint(&self, link: usize) -> Vec<RegressorColumn<S>> {
         let [q, v, a] = self.state;
-        let (name, columns) = (&self.joints[link], self.tree.columns_of(link));
-        let (column, link) = (columns.start, &self.tree.links[link]);
-        if columns.len() != 1 {
+        if !self.acts[link] {
             return vec![];
         }
+        let (name, column) = (&self.joints[link], self.tree.columns_of(link).start);
+        let link = &self.tree.links[link];
         let entry = |parameter: &str, value: S, force: S| {
             let mut forces = vec![S::zero(); self.tree.columns.len()];
             forces[column] = force;

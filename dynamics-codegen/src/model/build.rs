@@ -196,10 +196,8 @@ fn passive<'g>(joint: &JointSpec, values: &Values<'_, 'g>) -> Result<Passive<Exp
         &*joint.keys;
     let or_none = |formula: &Option<Formula>| values.scalar_or(formula.as_ref(), Expr::ZERO);
     let gear = or_none(gear)?;
-    let default_speed = match friction {
-        Some(_) => Expr::Constant(default_friction_speed()),
-        None => Expr::ZERO,
-    };
+    // The regressor asks for the friction per unit of its coefficient even where that is zero.
+    let default_speed = Expr::Constant(default_friction_speed());
     Ok(Passive {
         armature: or_none(armature)? + or_none(rotor)? * (gear * gear),
         damping: or_none(damping)?,
@@ -215,10 +213,13 @@ fn link_infos(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr<'_>>) -> V
     let of_joint = |(joint, links): (&JointSpec, &Range<usize>)| {
         let body = tree.frames.iter().position(|frame| frame.name == joint.child.text);
         let name = joint.name.text.clone();
-        let last = links.end;
-        links
-            .clone()
-            .map(move |link| LinkInfo { joint: name.clone(), body: body.filter(|_| link + 1 == last) })
+        let (first, last) = (links.start, links.end);
+        let is_one_dof = joint.kind.speeds() == 1;
+        links.clone().map(move |link| LinkInfo {
+            joint: name.clone(),
+            body: body.filter(|_| link + 1 == last),
+            acts: is_one_dof && link == first,
+        })
     };
     spec.joints.iter().zip(&topology.links).flat_map(of_joint).collect()
 }

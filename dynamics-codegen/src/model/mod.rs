@@ -97,6 +97,9 @@ pub struct LinkInfo {
     pub joint: String,
     /// The frame of the body that the joint carries; none of a link between the parts of a joint.
     pub body: Option<usize>,
+    /// Whether rotors, dampers, friction and springs of its joint act on it: of a joint of one degree of freedom on
+    /// its first link.
+    pub acts: bool,
 }
 
 /// A checked robot.

@@ -9,8 +9,8 @@ use crate::spatial::{Pose, PseudoInertia, Random, Symmetric3};
 pub(super) fn parameters(model: &Model<'_>, tree: &Tree<f64>) -> Vec<f64> {
     let bodies = bodies(model, tree);
     let of_bodies = bodies.into_iter().flat_map(|(link, pose)| ten(&tree.links[link].inertia, pose));
-    let joints = tree.links.iter().zip(&model.tree.links).filter(|(link, _)| link.motion.speeds() == 1);
-    let of_joints = joints.flat_map(|(link, symbolic)| {
+    let joints = tree.links.iter().zip(&model.tree.links).zip(&model.links).filter(|(_, info)| info.acts);
+    let of_joints = joints.flat_map(|((link, symbolic), _)| {
         let Passive { armature, damping, friction, stiffness, .. } = link.passive;
         let spring = (!symbolic.passive.stiffness.is_zero()).then_some(stiffness);
         [armature, damping, friction].into_iter().chain(spring)
@@ -37,7 +37,7 @@ pub(super) fn regressor_off(
             let inertia = PseudoInertia { mass, first, second: Symmetric3 { xx, yy, zz, xy, xz, yz } };
             link.inertia = inertia.transformed(*pose);
         }
-        if link.motion.speeds() == 1 {
+        if model.links[k].acts {
             (link.passive.armature, link.passive.damping) = (positive(), positive());
             link.passive.friction = positive();
             if link.passive.stiffness != 0.0 {

@@ -76,7 +76,7 @@ impl Random {
             };
             let passive = match shape == Shape::Any && motion.speeds() == 1 && self.chance() {
                 true => self.passive(),
-                false => Passive::none(),
+                false => Passive { friction_speed: 0.1, ..Passive::none() },
             };
             // A massless link between joints is legal, as long as something follows it.
             let is_massless = k == 1 && shape == Shape::Chain && n > 3;
