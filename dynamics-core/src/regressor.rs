@@ -10,13 +10,13 @@ use crate::scalar::Scalar;
 ///
 /// | | | |
 /// |---|---|---|
-/// | `m` | mass | kg |
-/// | `mx`, `my`, `mz` | mass times position of the centre of mass | kg·m |
-/// | `Ixx`, `Ixy`, `Iyy`, `Ixz`, `Iyz`, `Izz` | rotational inertia `∫(r²·1 − r·rᵀ) dm` | kg·m² |
+/// | `mass` | | kg |
+/// | `mass_x`, `mass_y`, `mass_z` | mass times position of the centre of mass | kg·m |
+/// | `inertia_xx`, `_xy`, `_yy`, `_xz`, `_yz`, `_zz` | rotational inertia `∫(r²·1 − r·rᵀ) dm` | kg·m² |
 ///
 /// Then three for each one-dof joint, in the order of the coordinates: `armature` (kg·m², kg), `damping` (N·m·s/rad,
 /// N·s/m) and `friction` (N·m, N). [`Mechanism::PARAMETER_NAMES`](crate::Mechanism::PARAMETER_NAMES) names all.
-/// Springs are no parameters: of a robot that has some, `Y·π` are the joint forces without those of its springs.
+/// A joint with a spring has its `stiffness` (N·m/rad, N/m) besides, so that `Y·π` is all of `τ`.
 ///
 /// # Source
 ///

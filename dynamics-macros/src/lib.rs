@@ -208,8 +208,8 @@ use proc_macro::TokenStream;
 ///
 /// | key | | default |
 /// |---|---|---|
-/// | `gravity = [x, y, z]` | the acceleration of free fall in the world, m/s² | `[0, 0, -9.81]` |
-/// | `outputs(mass_matrix, …)` | the methods to emit, by their names; `pose`, `jacobian` and `world_jacobian` of all frames | all |
+/// | `gravity = [x, y, z]` | the acceleration of free fall in the world, m/s²; of fields, if it is another in each call, as on a vehicle | `[0, 0, -9.81]` |
+/// | `outputs(mass_matrix, …)` | the methods to emit, by their names; one of a frame stands for all that frames have, one of a regressor for its parameters as well | all |
 /// | `allow(nonphysical_inertia)` | for all bodies | |
 /// | `urdf = "path"` | the file that has the robot, by its path from the crate's root | |
 /// | `base = fixed`, `free` | how the root of the file is in the world: welded, or by a joint `root_joint` of kind `free`, the first one | `fixed` |
@@ -258,6 +258,9 @@ use proc_macro::TokenStream;
 ///
 /// - `Mechanism`: sizes, names, limits, operation counts;
 /// - `Dynamics` and `DynamicsDerivatives`: the equations, as straight-line code;
+/// - `CentroidalDynamics`: the centre of mass and the momentum about it;
+/// - `Regressor` and `BaseRegressor`: joint forces by the parameters of bodies and joints; not of robots so large that
+///   their regressor would be longer than 20,000 statements;
 /// - `Configuration` and `StateSpaceModel`: for simulation and linearisation;
 /// - `Frame`, on a type for each body and each bare frame: `tool0` is `Tool0`, in the module `robot_frames` of a `Robot`
 ///   and re-exported beside it. A name that would hide a common type gets `Frame` behind it: `BoxFrame`.
