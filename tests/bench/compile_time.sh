@@ -1,6 +1,7 @@
 #!/bin/sh
-# How long a user's crate with one iiwa 14 takes to check and to build, its dependencies built: `./compile_time.sh`.
-# The robot is the example's; main calls every method, so that everything is compiled.
+# How long a user's crate with one robot takes to check and to build, its dependencies built: `./compile_time.sh` for
+# the iiwa 14 of the examples, where main calls every method of the equations; `./compile_time.sh humanoid` for a
+# floating humanoid of forty joints, of which forward dynamics is called. Expansion is part of it.
 set -e
 root=$(cd "$(dirname "$0")/../.." && pwd)
 crate=$(mktemp -d)
@@ -15,8 +16,19 @@ edition = "2024"
 dynamics-core = { path = "$root/dynamics-core" }
 [workspace]
 END
-{
+(
     echo 'use dynamics_core::prelude::*;'
+    if [ "$1" = humanoid ]; then
+        echo '#[derive(Dynamics)]'
+        cat "$root/tests/robots/humanoid/robot.rs"
+        cat <<END
+fn main() {
+    let (q, v): (SVector<f64, 47>, _) = (Humanoid.neutral(), SVector::repeat(0.2));
+    println!("{}", Humanoid.forward_dynamics(&q, &v, &SVector::zeros()));
+}
+END
+        exit
+    fi
     sed -n '/#\[derive(Dynamics/,/^\(pub \)\?struct Iiwa14;/p' "$root/examples/iiwa14.rs"
     cat <<END
 fn main() {
@@ -30,7 +42,7 @@ fn main() {
     println!("{sum}");
 }
 END
-} > "$crate/src/main.rs"
+) > "$crate/src/main.rs"
 cd "$crate"
 for command in check build 'build --release'; do
     cargo $command --quiet
