@@ -8,7 +8,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use dynamics_bench::industrial;
+use dynamics_bench::{industrial, models};
 use dynamics_core::prelude::*;
 
 const STATES: usize = 256;
@@ -30,21 +30,40 @@ fn main() {
     if wants("iiwa14") {
         race("iiwa14", &industrial::iiwa14::Iiwa14);
     }
+    if wants("hyq") {
+        race("hyq", &models::Hyq);
+    }
+    if wants("chain4") {
+        race("chain4", &models::Chain4);
+    }
+    if wants("chain16") {
+        race("chain16", &models::Chain16);
+    }
+    if wants("chain32") {
+        race("chain32", &models::Chain32);
+    }
 }
 
 /// Coordinates, speeds, and accelerations or forces.
-type States<const N: usize> = (SVector<f64, N>, SVector<f64, N>, SVector<f64, N>);
+type States<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>, SVector<f64, NV>);
 
 /// Times every method of a robot.
-fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R) {
+fn race<R, const NQ: usize, const NV: usize>(name: &str, robot: &R)
+where
+    R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>,
+{
     let mut seed = 2026_u64;
     let mut random = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     };
-    let mut vector = || SVector::<f64, N>::from_fn(|_, _| random());
-    let states: Vec<_> = (0..STATES).map(|_| (vector(), vector(), vector())).collect();
-    let time = |algorithm: &str, call: &mut dyn FnMut(&States<N>)| {
+    let mut vector = || SVector::<f64, NV>::from_fn(|_, _| random());
+    // Where a motion from no rotation leads: quaternions are of unit length there.
+    let neutral = robot.neutral();
+    let mut configuration = || robot.integrate(&neutral, &vector());
+    let configurations: Vec<_> = (0..STATES).map(|_| configuration()).collect();
+    let states: Vec<_> = configurations.into_iter().map(|q| (q, vector(), vector())).collect();
+    let time = |algorithm: &str, call: &mut dyn FnMut(&States<NQ, NV>)| {
         let mut batches: Vec<f64> = (0..BATCHES)
             .map(|_| {
                 let start = Instant::now();
@@ -53,7 +72,7 @@ fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R
             })
             .collect();
         batches.sort_by(f64::total_cmp);
-        println!("{name}\t{N}\tours\t{algorithm}\t{:.1}\t{:.1}", batches[0], batches[BATCHES / 2]);
+        println!("{name}\t{NV}\tours\t{algorithm}\t{:.1}\t{:.1}", batches[0], batches[BATCHES / 2]);
     };
     time("g", &mut |(q, _, _)| _ = black_box(robot.gravity_forces(black_box(q))));
     time("rnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics(black_box(q), v, a)));
@@ -61,6 +80,7 @@ fn race<R: DynamicsDerivatives<f64, N, N>, const N: usize>(name: &str, robot: &R
     time("crba", &mut |(q, _, _)| _ = black_box(robot.mass_matrix(black_box(q))));
     time("cor", &mut |(q, v, _)| _ = black_box(robot.coriolis_matrix(black_box(q), v)));
     time("aba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics(black_box(q), v, tau)));
+    time("minv", &mut |(q, _, _)| _ = black_box(robot.inverse_mass_matrix(black_box(q))));
     time("M+C+G", &mut |(q, v, _)| _ = black_box(robot.equations_of_motion(black_box(q), v)));
     time("drnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics_derivatives(black_box(q), v, a)));
     time("daba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics_derivatives(black_box(q), v, tau)));

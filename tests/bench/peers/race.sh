@@ -3,7 +3,7 @@
 # `./race.sh [MODEL…]`, CPU=N pins to a core. Builds the peers first if that has not been done (ten minutes).
 set -e
 cd "$(dirname "$0")"
-models=${*:-iiwa14 puma560 double_pendulum cartpole}
+models=${*:-iiwa14 puma560 double_pendulum cartpole hyq chain4 chain16 chain32}
 MODELS=$models sh build.sh
 RUSTFLAGS="-C target-cpu=native" cargo bench -q -p dynamics-bench --no-run
 {

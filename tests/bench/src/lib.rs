@@ -27,5 +27,30 @@ mod declaration {
 
 use declaration::robot;
 
+/// The peers' own models, which `peers/urdf.py` writes as files.
+pub mod models {
+    use dynamics_core::prelude::*;
+
+    /// A quadruped, floating.
+    #[derive(Dynamics)]
+    #[dynamics(urdf = "robots/hyq.urdf", base = free)]
+    pub struct Hyq;
+
+    /// Four joints with oblique axes in a row.
+    #[derive(Dynamics)]
+    #[dynamics(urdf = "robots/chain4.urdf")]
+    pub struct Chain4;
+
+    /// Sixteen.
+    #[derive(Dynamics)]
+    #[dynamics(urdf = "robots/chain16.urdf")]
+    pub struct Chain16;
+
+    /// Thirty-two.
+    #[derive(Dynamics)]
+    #[dynamics(urdf = "robots/chain32.urdf")]
+    pub struct Chain32;
+}
+
 #[path = "../../src/zoo/industrial.rs"]
 pub mod industrial;
