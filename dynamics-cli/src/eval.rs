@@ -24,9 +24,10 @@ pub(crate) struct Args {
 
 const HELP: &str = "\
 Output:
-  joints                     the order of all vectors
-  M, C, G, h                 M(q), C(q,v), G(q), h = C·v + G
-  tau                        M·a + C·v + G, at the `a` of the state
+  joints                     the order of all vectors; in q a free joint has x, y, z, i, j, k, w, and in v
+                             six entries, linear first
+  M, C, G, h                 M(q), C(q,v), G(q), h = C·v + G + passive joint forces
+  tau                        M·a + h, at the `a` of the state
   a                          M⁻¹·(tau − h), at the `tau` of the state
   kinetic_energy, potential_energy
   dtau_dq, dtau_dv           of `tau` above; ∂tau/∂a is M

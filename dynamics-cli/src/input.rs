@@ -24,6 +24,10 @@ pub(crate) struct InputArgs {
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     snap: Switch,
 
+    /// How the robot's root is in the world: welded, or free to move, with the coordinates x, y, z, i, j, k, w
+    #[arg(long, value_name = "KIND", default_value = "fixed")]
+    base: Base,
+
     /// Whether the damping and friction of the file act
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     passive: Switch,
@@ -34,6 +38,13 @@ pub(crate) struct InputArgs {
 enum Switch {
     On,
     Off,
+}
+
+/// How a root is in the world.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Base {
+    Fixed,
+    Free,
 }
 
 /// A file that was read.
@@ -69,19 +80,22 @@ impl InputArgs {
     /// As in `#[dynamics(…)]`.
     fn options(&self) -> String {
         let allow = self.allow.iter().map(|what| format!("allow({what})"));
-        let off = self.switched_off().map(|name| format!("{name} = off"));
-        allow.chain(off).collect::<Vec<_>>().join(", ")
+        let others = self.others().map(|(name, value)| format!("{name} = {value}"));
+        allow.chain(others).collect::<Vec<_>>().join(", ")
     }
 
     /// As on the command line, with a space before each.
     pub(crate) fn flags(&self) -> String {
         let allow = self.allow.iter().map(|what| format!(" --allow {what}"));
-        allow.chain(self.switched_off().map(|name| format!(" --{name} off"))).collect()
+        allow.chain(self.others().map(|(name, value)| format!(" --{name} {value}"))).collect()
     }
 
-    fn switched_off(&self) -> impl Iterator<Item = &'static str> {
+    /// What is not as it is by default.
+    fn others(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
+        let base = (self.base == Base::Free).then_some(("base", "free"));
         let switches = [("snap", self.snap), ("passive", self.passive)];
-        switches.into_iter().filter(|(_, switch)| *switch == Switch::Off).map(|(name, _)| name)
+        let off = switches.into_iter().filter(|(_, switch)| *switch == Switch::Off);
+        base.into_iter().chain(off.map(|(name, _)| (name, "off")))
     }
 }
 

@@ -4,13 +4,15 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use dynamics_codegen::mechanics::equations::Method;
+use dynamics_codegen::model::JointInfo;
+use dynamics_codegen::spec::JointKind;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
 use crate::input::InputArgs;
 use crate::output::{failed, writer};
 use crate::progress::Progress;
-use crate::robot::{Robot, State, Wanted};
+use crate::robot::{Read, Robot, State, Wanted};
 use crate::state;
 
 /// Simulate a robot that nothing drives, as CSV: time, q, v and energies
@@ -28,7 +30,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SECONDS", value_parser = step, allow_hyphen_values = true)]
     step: f64,
 
-    /// Coordinates at the start, with commas between them; without it, zero
+    /// Coordinates at the start, with commas between them; without it, zero, and nothing is turned
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
@@ -76,13 +78,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let graph = Graph::new();
     let wanted = [Method::ForwardDynamics, Method::KineticEnergy, Method::PotentialEnergy];
     let robot = Robot::of(&input, &graph, Wanted::Only(&wanted))?;
-    let zeros = vec![0.0; robot.dof()];
-    let mut state = State {
-        q: state::vector("q", args.q.as_deref(), &robot.read.model)?,
-        v: state::vector("v", args.v.as_deref(), &robot.read.model)?,
-        a: zeros.clone(),
-        tau: zeros,
-    };
+    let model = &robot.read.model;
+    let mut state = state::at_rest(model);
+    for (name, argument, vector) in [("q", &args.q, &mut state.q), ("v", &args.v, &mut state.v)] {
+        if let Some(argument) = argument {
+            *vector = state::vector(name, argument, model)?;
+        }
+    }
     let mut out = writer(args.output.as_deref(), &args.input.file)?;
     let mut write =
         |line: &str| out.write_all(line.as_bytes()).map_err(|error| failed(args.output.as_deref(), &error));
@@ -128,31 +130,35 @@ impl Clock {
     }
 }
 
-/// The state after a step `h`, by the classical method of Runge and Kutta.
+/// The state after a step `h`, by the classical method of Runge and Kutta. Quaternions are made of unit length again
+/// after each step: in between they leave it by no more than the method is off.
 fn stepped(robot: &Robot<'_>, state: &State, h: f64) -> Result<State, Failure> {
     let along = |x: &[f64], h: f64, rate: &[f64]| -> Vec<f64> {
         x.iter().zip(rate).map(|(x, rate)| x + h * rate).collect()
     };
-    let after = |h: f64, v: &[f64], a: &[f64]| State {
-        q: along(&state.q, h, v),
+    let after = |h: f64, rate: &[f64], a: &[f64]| State {
+        q: along(&state.q, h, rate),
         v: along(&state.v, h, a),
         ..state.clone()
     };
-    let acceleration = |state: &State| robot.evaluate(Method::ForwardDynamics, state);
-    let a1 = acceleration(state)?;
-    let s2 = after(0.5 * h, &state.v, &a1);
-    let a2 = acceleration(&s2)?;
-    let s3 = after(0.5 * h, &s2.v, &a2);
-    let a3 = acceleration(&s3)?;
-    let s4 = after(h, &s3.v, &a3);
-    let a4 = acceleration(&s4)?;
+    let tree = &robot.read.tree;
+    let rates = |state: &State| -> Result<(Vec<f64>, Vec<f64>), Failure> {
+        let a = robot.evaluate(Method::ForwardDynamics, state)?;
+        Ok((tree.configuration_rate(&state.q, &state.v), a))
+    };
+    let (v1, a1) = rates(state)?;
+    let (v2, a2) = rates(&after(0.5 * h, &v1, &a1))?;
+    let (v3, a3) = rates(&after(0.5 * h, &v2, &a2))?;
+    let (v4, a4) = rates(&after(h, &v3, &a3))?;
     let mean = |[one, two, three, four]: [&[f64]; 4]| -> Vec<f64> {
         let sum = |k: usize| one[k] + 2.0 * (two[k] + three[k]) + four[k];
         (0..one.len()).map(|k| sum(k) / 6.0).collect()
     };
-    let v = mean([&state.v, &s2.v, &s3.v, &s4.v]);
+    let v = mean([&v1, &v2, &v3, &v4]);
     let a = mean([&a1, &a2, &a3, &a4]);
-    Ok(after(h, &v, &a))
+    let mut state = after(h, &v, &a);
+    tree.normalise(&mut state.q);
+    Ok(state)
 }
 
 /// Says when numbers got out of hand.
@@ -166,12 +172,42 @@ fn lost(failure: Failure, time: f64) -> Failure {
 }
 
 fn head(robot: &Robot<'_>) -> String {
-    let names = |prefix: &'static str| {
-        robot.read.model.joints.iter().map(move |joint| quoted(&format!("{prefix}.{}", joint.name)))
+    let Read { spec, model, .. } = &robot.read;
+    let moving = spec.joints.iter().filter(|joint| joint.has_coordinates());
+    let joints: Vec<_> = model.joints.iter().zip(moving).map(|(info, joint)| (info, joint.kind)).collect();
+    let names = |prefix: &'static str, parts: fn(JointKind) -> &'static [&'static str]| {
+        let of_joint = move |(joint, kind): &(&JointInfo, JointKind)| {
+            let part = |part: &&str| quoted(&format!("{prefix}.{}{part}", joint.name));
+            parts(*kind).iter().map(part).collect::<Vec<_>>()
+        };
+        joints.iter().flat_map(of_joint).collect::<Vec<_>>()
     };
-    let energies = ["kinetic", "potential", "total"].map(str::to_owned);
-    let cells = std::iter::once("time".to_owned()).chain(names("q")).chain(names("v")).chain(energies);
-    cells.collect::<Vec<_>>().join(",") + "\n"
+    let energies = ["kinetic", "potential", "total"].map(str::to_owned).to_vec();
+    let cells = [vec!["time".to_owned()], names("q", coordinates), names("v", speeds), energies].concat();
+    cells.join(",") + "\n"
+}
+
+/// What the coordinates of a joint are called behind its name.
+fn coordinates(kind: JointKind) -> &'static [&'static str] {
+    match kind {
+        JointKind::Ball => &[".i", ".j", ".k", ".w"],
+        JointKind::Free => &[".x", ".y", ".z", ".i", ".j", ".k", ".w"],
+        _ => speeds(kind),
+    }
+}
+
+/// What its speeds are called.
+fn speeds(kind: JointKind) -> &'static [&'static str] {
+    match kind {
+        JointKind::Fixed => &[],
+        JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic | JointKind::Helical => &[""],
+        JointKind::Cylindrical => &[".angle", ".distance"],
+        JointKind::Universal => &[".first", ".second"],
+        JointKind::Planar => &[".x", ".y", ".angle"],
+        JointKind::Translation => &[".x", ".y", ".z"],
+        JointKind::Ball => &[".wx", ".wy", ".wz"],
+        JointKind::Free => &[".x", ".y", ".z", ".wx", ".wy", ".wz"],
+    }
 }
 
 /// A cell of CSV, RFC 4180.

@@ -39,6 +39,26 @@ fn the_operations_of_the_cart_pole() {
     insta::assert_snapshot!(dynamics(&["count", &model("cartpole")]).ok());
 }
 
+/// A free base, followers, and joints that resist.
+#[test]
+fn a_walker_with_a_gripper() {
+    insta::assert_snapshot!(dynamics_on(WALKER.as_bytes(), &["check", "-", "--base", "free"]).ok());
+}
+
+const WALKER: &str = r#"<robot name="walker">
+  <link name="hull"><inertial><mass value="3"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="left"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="right"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="cart"><inertial><mass value="1"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="right_finger" type="prismatic"><parent link="hull"/><child link="right"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/><mimic joint="left_finger" multiplier="-1"/></joint>
+  <joint name="left_finger" type="prismatic"><parent link="hull"/><child link="left"/><axis xyz="0 1 0"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/><dynamics damping="3" friction="1"/></joint>
+  <joint name="floor" type="planar"><parent link="hull"/><child link="cart"/><axis xyz="0 0 1"/></joint>
+  <transmission name="t"><joint name="left_finger"/><actuator name="m"><mechanicalReduction>50</mechanicalReduction></actuator></transmission>
+</robot>
+"#;
+
 /// Two arms on a base; a link without mass, one that is welded, and elements that are of no use here.
 const TREE: &str = r#"<robot name="two arms">
   <link name="base"><visual/></link>

@@ -73,6 +73,26 @@ fn a_wrong_state_names_the_joints() {
 }
 
 #[test]
+fn a_wrong_state_of_a_free_base_says_which_part() {
+    for (state, expected) in [
+        (r#"{"q": [0, 0]}"#, "the robot has 9 coordinates"),
+        (r#"{"v": [0, 0]}"#, "8 finite numbers, of the joints root_joint (6), joint1, joint2"),
+        (
+            r#"{"q": [0, 0, 0, 0, 0, 0, 2, 0, 0]}"#,
+            "the quaternion of the joint `root_joint` has the length 2",
+        ),
+        (
+            r#"{"speed": []}"#,
+            "give `q`, 9 finite numbers, of the joints root_joint (7), joint1, joint2, or `v`",
+        ),
+    ] {
+        let complaint =
+            dynamics(&["eval", &model("double_pendulum"), "--base", "free", "--state", state]).failed(1);
+        assert!(complaint.contains(expected), "{state}: {complaint}");
+    }
+}
+
+#[test]
 fn a_wrong_simulation_does_not_start() {
     let cart = model("cartpole");
     let simulate = ["simulate", cart.as_str()];
