@@ -5,8 +5,7 @@ use dynamics_core::prelude::*;
 /// HyQ from its file, with what the file does not say: the rotors of its knees, and a load on its trunk.
 #[derive(Dynamics)]
 #[dynamics(urdf = "robots/hyq.urdf", base = free)]
-#[joint(lf_kfe_joint, rotor = 5e-5, gear = 100, damping = 0.2)]
-#[joint(rh_kfe_joint, rotor = 5e-5, gear = 100, damping = 0.2)]
+#[joint([lf_kfe_joint, rh_kfe_joint], rotor = 5e-5, gear = 100, damping = 0.2)]
 #[joint(strap: fixed, trunk -> load, at = [0, 0, 0.1])]
 #[body(load, solid = cuboid(load, [0.3, 0.2, 0.1]))]
 struct Hyq<T> {

@@ -235,12 +235,14 @@ use proc_macro::TokenStream;
 ///
 /// Lines on the struct say more than the file. Each key of a `#[body]` with the name of a link replaces what the file says
 /// of it (`solid` all of its `<inertial>`, `inertia` the tensor and its `rpy`), each key of a `#[joint(name, …)]` without
-/// kind and bodies what it says of the joint, and further joints and bodies are added. So a payload is a field:
+/// kind and bodies what it says of the joint, and further joints and bodies are added. A line may be of several joints:
+/// `#[joint([name, name], …)]`. (Clippy takes two lines with the same plain number for one too many; in a list it does not.)
+/// So a payload is a field:
 ///
 /// ```ignore
 /// #[derive(Dynamics)]
 /// #[dynamics(urdf = "robots/iiwa14.urdf")]
-/// #[joint(iiwa_joint_1, rotor = 1e-4, gear = 160, friction = 0.3)]
+/// #[joint([iiwa_joint_1, iiwa_joint_2], rotor = 1e-4, gear = 160, friction = 0.3)]
 /// #[joint(iiwa_joint_7, locked = 30deg)]
 /// #[joint(grip: fixed, iiwa_link_ee -> payload)]
 /// #[body(payload, solid = point(m))]

@@ -1,4 +1,4 @@
-//! `#[joint(name: kind(axis), parent -> child, …)]`, and `#[joint(name, …)]` of a joint that a file has.
+//! `#[joint(name: kind(axis), parent -> child, …)]`, and `#[joint(name, …)]` of joints that a file has.
 
 use proc_macro2::Delimiter;
 
@@ -47,7 +47,7 @@ pub struct JointAmendment {
 /// A line of either form.
 pub(super) enum JointLine {
     Joint(Box<JointSpec>),
-    Amendment(JointAmendment),
+    Amendments(Vec<JointAmendment>),
 }
 
 /// A direction as written.
@@ -116,12 +116,13 @@ impl JointLine {
     /// Reads the contents of the attribute. Keys that fail are reported and left out.
     pub(super) fn parse(input: Cursor, place: Place, line: usize, diags: &mut Diagnostics) -> Option<Self> {
         let mut items = input.items();
+        let names_a_joint =
+            |first: &mut Cursor| first.only_ident().is_some() || first.peek_group(Delimiter::Bracket);
         if items.len() > 1
             && !items.iter().any(Cursor::has_arrow)
-            && let Some(name) = items.first().and_then(Cursor::only_ident)
+            && items.first_mut().is_some_and(names_a_joint)
         {
-            let keys = Box::new(JointKeys::parse(items.into_iter().skip(1), diags));
-            return Some(Self::Amendment(JointAmendment { name: Name::new(&name), keys, place }));
+            return Some(Self::Amendments(amendments(items, &place, diags)));
         }
         let keys = items.split_off(items.len().min(2)).into_iter();
         let mut items = items.into_iter();
@@ -153,6 +154,26 @@ impl JointLine {
             place,
         })))
     }
+}
+
+/// `name, key = value, …`, or `[name, …], key = value, …` for all of these joints.
+fn amendments(items: Vec<Cursor>, place: &Place, diags: &mut Diagnostics) -> Vec<JointAmendment> {
+    let mut items = items.into_iter();
+    let names = items.next().map_or(Ok(vec![]), |mut first| match first.group(Delimiter::Bracket)? {
+        Some((mut list, _)) => {
+            first.finish("the joints' names")?;
+            if list.is_empty() {
+                return Err(list.expected("the name of a joint"));
+            }
+            list.items().into_iter().map(|item| values::name(item, "the name of a joint")).collect()
+        }
+        None => Ok(vec![values::name(first, "the name of a joint")?]),
+    });
+    let keys = Box::new(JointKeys::parse(items, diags));
+    let form = |mistake: Diagnostic| mistake.help("write `#[joint(name, …)]` or `#[joint([name, name], …)]`");
+    let names: Vec<Name> = diags.keep(names.map_err(form)).unwrap_or_default();
+    let of = |name| JointAmendment { name, keys: keys.clone(), place: place.clone() };
+    names.into_iter().map(of).collect()
 }
 
 fn missing(what: &str, place: &Place) -> Diagnostic {

@@ -84,7 +84,7 @@ pub struct RobotSpec {
     pub options: Options,
     /// `#[joint(…)]`, in order.
     pub joints: Vec<JointSpec>,
-    /// `#[joint(name, …)]` of the joints of a file, until they are read.
+    /// `#[joint(name, …)]` on joints of a file, until they are read.
     pub amendments: Vec<JointAmendment>,
     /// `#[body(…)]`, in order.
     pub bodies: Vec<BodySpec>,
@@ -135,7 +135,7 @@ impl RobotSpec {
         match helper {
             "joint" => match JointLine::parse(input, place, line, diags) {
                 Some(JointLine::Joint(joint)) => self.joints.push(*joint),
-                Some(JointLine::Amendment(amendment)) => self.amendments.push(amendment),
+                Some(JointLine::Amendments(amendments)) => self.amendments.extend(amendments),
                 None => {}
             },
             "body" => self.bodies.extend(BodySpec::parse(list.tokens.clone(), input, place, line, diags)),

@@ -183,6 +183,20 @@ fn joints_of_a_file_can_be_locked_and_their_followers_stand_still() {
     assert_eq!(model(&spec, &Graph::new()).tree.links.len(), 5);
 }
 
+/// Legs have the same motors.
+#[test]
+fn a_line_may_be_of_several_joints() {
+    let lines = "#[joint([hip, knee], rotor = 1e-4, gear = 100)] #[joint([slip], actuated = off)]";
+    let (spec, report) = beside(lines, &everything());
+    let graph = Graph::new();
+    let model = model(&spec, &graph);
+    let armatures = model.tree.links.iter().map(|link| link.passive.armature.as_number().map(|a| a.to_f64()));
+    assert_eq!(armatures.collect::<Vec<_>>()[..3], [Some(0.0), Some(1.0), Some(1.0)]);
+    assert_eq!(model.actuated, [6]);
+    let lines = texts(&report.remarks).iter().filter(|text| text.contains("on the struct as well")).count();
+    assert_eq!(lines, 3);
+}
+
 #[test]
 fn a_joint_of_a_file_can_follow_another_one() {
     let joints = [
