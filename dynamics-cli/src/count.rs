@@ -43,7 +43,7 @@ fn row(robot: &Robot<'_>, compiled: &CompiledMethod<'_>) -> Vec<String> {
     let cost = compiled.cost;
     let form = match compiled.plan {
         Plan::StraightLine { .. } => "straight line",
-        Plan::FromInverse { .. } => "loops",
+        Plan::Loops { .. } => "loops",
         Plan::Table { .. } => "recursion; about",
     };
     let counts =

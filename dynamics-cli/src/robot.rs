@@ -124,10 +124,10 @@ impl<'g> Robot<'g> {
     fn compute(&self, method: Method, state: &State) -> Option<Vec<f64>> {
         match self.plan(method)? {
             Plan::StraightLine { program, .. } => Some(program.evaluate(|symbol| state.read(symbol), &[])),
-            Plan::FromInverse { .. } if method == Method::ForwardDynamicsDerivatives => {
+            Plan::Loops { .. } if method == Method::ForwardDynamicsDerivatives => {
                 self.derivatives_from_inverse(state)
             }
-            Plan::FromInverse { .. } | Plan::Table { .. } => self.plain(method, state),
+            Plan::Loops { .. } | Plan::Table { .. } => self.plain(method, state),
         }
     }
 

@@ -186,3 +186,12 @@ fn as_many_joints_as_are_allowed_are_read() {
     }
     assert_eq!(model(&Graph::new(), &(text + "struct Chain;")).tree.dof(), 256);
 }
+
+/// Links of files are called what their makers liked; their types are Rust.
+#[test]
+fn frames_have_types_of_rust_whatever_they_are_called() {
+    let types = [("tool0", "Tool0"), ("1st-link", "Frame1stLink"), ("box", "BoxFrame"), ("R", "RFrame")];
+    for (name, type_) in types {
+        assert_eq!(dynamics_codegen::model::names::frame_type(name, "R"), type_);
+    }
+}

@@ -1,5 +1,6 @@
 //! What generated code needs, under names no user can shadow. Not part of the public interface.
 
+pub mod inverse;
 pub mod manifold;
 pub mod recursion;
 pub mod solve;
@@ -17,10 +18,10 @@ pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use crate::regressor::{BaseRegressor, Regressor};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
+pub use inverse::{forward_from_inverse, inverse_of};
 pub use manifold::{
     ball_tangent_rate, difference_ball, difference_free, free_tangent_rate, integrate_ball, integrate_free,
 };
-pub use solve::{factor, forward_from_inverse, inverse_of, solve_columns};
 
 /// `(sin x, cos x)`.
 #[inline(always)]

@@ -4,21 +4,78 @@ use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::scalar::Scalar;
 
-/// `A·B`, R×C, as sums over the columns of `A`.
+/// So many rows of a product are summed at a time: what fits into registers, in lanes.
+const STRIP: usize = 8;
+/// So many columns.
+const COLUMNS: usize = 4;
+
+/// `A·B`, R×C.
+///
+/// # Cost
+///
+/// R·K·C multiplications and additions, fused where the target can.
 #[inline]
 pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>(
     a: &SMatrix<T, R, K>,
     b: &SMatrix<T, K, C>,
 ) -> SMatrix<T, R, C> {
     let mut columns = [[T::zero(); R]; C];
-    for (sum, b) in columns.iter_mut().zip(&b.data.0) {
-        for (a, b) in a.data.0.iter().zip(b) {
-            for (sum, a) in sum.iter_mut().zip(a) {
-                *sum = a.mul_add(*b, *sum);
+    let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
+    let (factors, factors_of_rest) = b.data.0.as_chunks::<COLUMNS>();
+    for (block, factors) in blocks.iter_mut().zip(factors) {
+        multiply(&a.data.0, factors, block);
+    }
+    for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
+        multiply(&a.data.0, core::array::from_ref(factors), core::array::from_mut(column));
+    }
+    SMatrix::from_array_storage(ArrayStorage(columns))
+}
+
+/// W columns of the product: strip by strip of their rows, each summed over the columns of `a` in registers.
+#[inline(always)]
+fn multiply<T: Scalar, const R: usize, const K: usize, const W: usize>(
+    a: &[[T; R]; K],
+    factors: &[[T; K]; W],
+    result: &mut [[T; R]; W],
+) {
+    for strip in 0..R / STRIP {
+        let mut sums = [[T::zero(); STRIP]; W];
+        for (k, column) in a.iter().enumerate() {
+            if let Some(part) = column.as_chunks::<STRIP>().0.get(strip) {
+                add_multiples(&mut sums, part, factors, k);
+            }
+        }
+        for (result, sums) in result.iter_mut().zip(sums) {
+            if let Some(part) = result.as_chunks_mut::<STRIP>().0.get_mut(strip) {
+                *part = sums;
             }
         }
     }
-    SMatrix::from_array_storage(ArrayStorage(columns))
+    let mut sums = [[T::zero(); STRIP]; W];
+    for (k, column) in a.iter().enumerate() {
+        add_multiples(&mut sums, column.as_chunks::<STRIP>().1, factors, k);
+    }
+    for (result, sums) in result.iter_mut().zip(sums) {
+        for (entry, sum) in result.as_chunks_mut::<STRIP>().1.iter_mut().zip(sums) {
+            *entry = sum;
+        }
+    }
+}
+
+/// Adds to each sum the part, times the column's `k`-th factor.
+#[inline(always)]
+fn add_multiples<T: Scalar, const K: usize, const W: usize>(
+    sums: &mut [[T; STRIP]; W],
+    part: &[T],
+    factors: &[[T; K]; W],
+    k: usize,
+) {
+    for (sums, factors) in sums.iter_mut().zip(factors) {
+        let Some(factor) = factors.get(k) else { continue };
+        for (sum, a) in sums.iter_mut().zip(part) {
+            *sum = a.mul_add(*factor, *sum);
+        }
+    }
 }
 
 /// `Aᵀ·b`, C.

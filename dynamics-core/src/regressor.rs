@@ -33,7 +33,9 @@ pub trait Regressor<T: Scalar, const NQ: usize, const NV: usize, const NP: usize
 /// `τ = Y_b(q,v,a)·π_b` with as few parameters as there can be: `NB` combinations of the inertial parameters, which
 /// motion and joint forces determine.
 ///
-/// The columns of `Y_b` are independent functions of the motion.
+/// The columns of `Y_b` are independent functions of the motion. Where the geometry of the robot is of fields, that is
+/// promised of robots whose joints hang on a body that turns about two axes, or floats: combinations whose shares
+/// change with the fields are not taken out.
 /// [`Mechanism::BASE_PARAMETER_NAMES`](crate::Mechanism::BASE_PARAMETER_NAMES) writes out the combinations.
 ///
 /// # Source

@@ -20,7 +20,7 @@ END
     echo 'use dynamics_core::prelude::*;'
     if [ "$1" = humanoid ]; then
         echo '#[derive(Dynamics)]'
-        cat "$root/tests/robots/humanoid/robot.rs"
+        cat "$root/tests/robots/humanoid/robot.txt"
         cat <<END
 fn main() {
     let (q, v): (SVector<f64, 47>, _) = (Humanoid.neutral(), SVector::repeat(0.2));

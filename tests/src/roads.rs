@@ -102,7 +102,7 @@ impl Interpreter<'_, '_> {
         let compiled = self.compiled.methods.iter().find(|compiled| compiled.method == method)?;
         match &compiled.plan {
             Plan::StraightLine { program, .. } => Some(program.evaluate(read, &self.fields)),
-            Plan::FromInverse { .. } | Plan::Table { .. } => None,
+            Plan::Loops { .. } | Plan::Table { .. } => None,
         }
     }
 }

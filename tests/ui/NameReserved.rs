@@ -3,7 +3,7 @@ use dynamics_core::prelude::*;
 #[derive(Dynamics)]
 #[joint(shoulder: revolute(z), world -> arm)]
 #[body(arm, mass = 1.5, com = [0.2, 0, 0], inertia = diag(0.1, 0.1, 0.2))]
-#[joint(weld: fixed, arm -> _1)]
+#[joint(weld: fixed, arm -> __)]
 struct Arm;
 
 fn main() {

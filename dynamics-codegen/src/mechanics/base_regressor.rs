@@ -13,7 +13,7 @@ use super::method::Inputs;
 use super::motion::accelerations;
 use super::normal::{NormalTree, PlacedJoint};
 use super::regressor::{Regressed, RegressorColumn};
-use super::regroup::regroup;
+use super::regroup::{Split, split};
 use super::rnea::{Wrench, link_wrench};
 use crate::model::Motion;
 use crate::spatial::{Matrix3, PseudoInertia, Random, Scalar, Symmetric3, Vector3};
@@ -26,22 +26,15 @@ pub fn base_columns<'g>(
     symbols: &Symbols<'_, 'g>,
 ) -> Vec<RegressorColumn<Expr<'g>>> {
     let (tree, [q, v, a]) = (robot.tree, robot.state);
-    let (grouped, reachable) = (regroup(tree), regroup(&with_full_bodies(tree, is_body)));
     let placed = tree.place(q);
     let motion = accelerations(tree, &placed, v, a);
     let is_bound: Vec<bool> = (0..tree.links.len()).map(|link| is_bound(tree, link)).collect();
     let mut columns: Vec<(RegressorColumn<Expr<'g>>, bool)> = Vec::new();
-    for (k, motion) in motion.iter().enumerate() {
-        for (moment, name) in MOMENTS.iter().enumerate() {
-            if entry(&reachable.links[k].inertia, moment).is_zero() {
-                continue;
-            }
-            let forces = forces_of(tree, &placed, k, link_wrench(&unit(moment), motion));
-            let column = RegressorColumn {
-                name: format!("{}.{name}", robot.joints[k]),
-                value: entry(&grouped.links[k].inertia, moment),
-                forces: robot.coupling.gather(forces),
-            };
+    for (k, own) in grouped(tree, is_body).into_iter().enumerate() {
+        for Portion { of, value, inertia } in own {
+            let forces = forces_of(tree, &placed, k, link_wrench(&inertia, &motion[k]));
+            let name = format!("{}.{of}", robot.joints[k]);
+            let column = RegressorColumn { name, value, forces: robot.coupling.gather(forces) };
             columns.push((column, is_bound[k]));
         }
     }
@@ -241,6 +234,51 @@ const MOMENTS: [&str; 10] = [
     "moment_zz",
 ];
 
+/// A mass on a link, as it is while a parameter is one, and the parameter.
+#[derive(Clone, Copy)]
+struct Portion<'g> {
+    of: &'static str,
+    value: Expr<'g>,
+    inertia: PseudoInertia<Expr<'g>>,
+}
+
+/// For each link the masses that only it can have. Those of a body are its moments, each by itself; a link between the
+/// parts of a joint has what comes of the parameters of what it carries, and no more.
+fn grouped<'g>(tree: &NormalTree<Expr<'g>>, is_body: &[bool]) -> Vec<Vec<Portion<'g>>> {
+    let full = |inertia: &PseudoInertia<Expr<'g>>| -> Vec<Portion<'g>> {
+        let portion = |k: usize| Portion { of: MOMENTS[k], value: entry(inertia, k), inertia: unit(k) };
+        (0..MOMENTS.len()).map(portion).collect()
+    };
+    let mut portions: Vec<Vec<Portion<'g>>> = (tree.links.iter().zip(is_body))
+        .map(|(link, &is_body)| if is_body { full(&link.inertia) } else { vec![] })
+        .collect();
+    for k in (0..tree.links.len()).rev() {
+        let link = &tree.links[k];
+        for portion in std::mem::take(&mut portions[k]) {
+            let Split { stays, goes } = split(link, portion.inertia);
+            match link.parent {
+                Some(parent) if is_body[parent] => {
+                    for (moment, known) in portions[parent].iter_mut().enumerate() {
+                        known.value = known.value + portion.value * entry(&goes, moment);
+                    }
+                }
+                Some(parent) if !is_nothing(&goes) => {
+                    portions[parent].push(Portion { inertia: goes, ..portion });
+                }
+                _ => {}
+            }
+            if !is_nothing(&stays) {
+                portions[k].push(Portion { inertia: stays, ..portion });
+            }
+        }
+    }
+    portions
+}
+
+fn is_nothing<S: Scalar>(inertia: &PseudoInertia<S>) -> bool {
+    (0..MOMENTS.len()).all(|moment| entry(inertia, moment).is_zero())
+}
+
 fn entry<S: Scalar>(inertia: &PseudoInertia<S>, moment: usize) -> S {
     let (PseudoInertia { mass, second, .. }, [x, y, z]) = (*inertia, inertia.first.0);
     [mass, x, y, z, second.xx, second.xy, second.yy, second.xz, second.yz, second.zz][moment]
@@ -260,18 +298,4 @@ fn unit<S: Scalar>(moment: usize) -> PseudoInertia<S> {
             zz: entry(9),
         },
     }
-}
-
-/// The tree with bodies of which no moment is zero.
-fn with_full_bodies<'g>(tree: &NormalTree<Expr<'g>>, is_body: &[bool]) -> NormalTree<Expr<'g>> {
-    let mut tree = tree.clone();
-    for (k, link) in tree.links.iter_mut().enumerate() {
-        link.inertia = PseudoInertia::zero();
-        for moment in (0..MOMENTS.len()).filter(|_| is_body[k]) {
-            // Numbers without pattern, so that sums of them do not cancel.
-            let size = Number::ratio(1 + ((7 * k + 3 * moment) % 11) as i64, 13 + moment as i64);
-            link.inertia = link.inertia + unit(moment).map(|one: Expr<'g>| one * Expr::from(size));
-        }
-    }
-    tree
 }

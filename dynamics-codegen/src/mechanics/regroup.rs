@@ -7,7 +7,7 @@
 //!
 //! M. Gautier, W. Khalil, *Direct calculation of minimum set of inertial parameters of serial robots*, 1990.
 
-use super::normal::NormalTree;
+use super::normal::{NormalLink, NormalTree};
 use crate::model::Motion;
 use crate::spatial::{Matrix3, PseudoInertia, Scalar, Symmetric3, Vector3};
 
@@ -15,28 +15,57 @@ use crate::spatial::{Matrix3, PseudoInertia, Scalar, Symmetric3, Vector3};
 pub fn regroup<S: Scalar>(tree: &NormalTree<S>) -> NormalTree<S> {
     let mut tree = tree.clone();
     for k in (0..tree.links.len()).rev() {
-        let gain = match tree.links[k].motion {
-            Motion::Revolute => take_axial_mass(&mut tree, k),
-            Motion::Prismatic => take_second_moment(&mut tree, k),
-            Motion::Ball => take_mass(&mut tree, k),
-            Motion::Free => continue,
-        };
-        let parent = match tree.links[k].parent {
+        let link = &tree.links[k];
+        let Split { stays, goes } = split(link, link.inertia);
+        let parent = link.parent;
+        tree.links[k].inertia = stays;
+        let parent = match parent {
             Some(parent) => &mut tree.links[parent].inertia,
             None => &mut tree.at_rest,
         };
-        *parent = *parent + gain;
+        *parent = *parent + goes;
     }
     tree
 }
 
-/// Takes `(m, h_z, Σ_zz)` off the revolute link `k`; returns it in the parent's frame.
-fn take_axial_mass<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInertia<S> {
-    let link = &mut tree.links[k];
-    let (mass, first, second) = (link.inertia.mass, link.inertia.first.0[2], link.inertia.second.zz);
-    link.inertia.mass = S::zero();
-    link.inertia.first.0[2] = S::zero();
-    link.inertia.second.zz = S::zero();
+/// A mass on a link in two parts.
+pub struct Split<S> {
+    /// What only the link can have, in its frame.
+    pub stays: PseudoInertia<S>,
+    /// What the parent may have as well, in the parent's frame.
+    pub goes: PseudoInertia<S>,
+}
+
+/// Splits a mass on a link into what stays and what goes.
+pub fn split<S: Scalar>(link: &NormalLink<S>, inertia: PseudoInertia<S>) -> Split<S> {
+    let goes = match link.motion {
+        Motion::Revolute => axial_mass(link, inertia),
+        Motion::Prismatic => {
+            let rotation = link.turn.matrix() * Matrix3::rotation_z(link.offset.cos, link.offset.sin);
+            PseudoInertia { second: inertia.second.rotated(rotation), ..PseudoInertia::zero() }
+        }
+        Motion::Ball => {
+            let (mass, position) = (inertia.mass, link.position);
+            let second = Symmetric3::outer_self(mass, position);
+            PseudoInertia { mass, first: position.scale(mass), second }
+        }
+        Motion::Free => PseudoInertia::zero(),
+    };
+    let mut stays = inertia;
+    match link.motion {
+        Motion::Revolute => {
+            (stays.mass, stays.first.0[2], stays.second.zz) = (S::zero(), S::zero(), S::zero());
+        }
+        Motion::Prismatic => stays.second = Symmetric3::zero(),
+        Motion::Ball => stays.mass = S::zero(),
+        Motion::Free => {}
+    }
+    Split { stays, goes }
+}
+
+/// `(m, h_z, Σ_zz)` of a mass on a revolute link, in the parent's frame.
+fn axial_mass<S: Scalar>(link: &NormalLink<S>, inertia: PseudoInertia<S>) -> PseudoInertia<S> {
+    let (mass, first, second) = (inertia.mass, inertia.first.0[2], inertia.second.zz);
     let (position, axis) = (link.position, link.turn.up(Vector3::unit_z()));
     PseudoInertia {
         mass,
@@ -45,21 +74,4 @@ fn take_axial_mass<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInert
             + Symmetric3::outer_twice(position, axis.scale(first))
             + Symmetric3::outer_self(second, axis),
     }
-}
-
-/// Takes all of `Σ` off the prismatic link `k`; returns it in the parent's axes.
-fn take_second_moment<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInertia<S> {
-    let link = &mut tree.links[k];
-    let second = std::mem::replace(&mut link.inertia.second, Symmetric3::zero());
-    let about_z = link.offset;
-    let rotation = link.turn.matrix() * Matrix3::rotation_z(about_z.cos, about_z.sin);
-    PseudoInertia { second: second.rotated(rotation), ..PseudoInertia::zero() }
-}
-
-/// Takes the mass off the link `k` of a ball joint; returns it in the parent's frame, at the joint's centre.
-fn take_mass<S: Scalar>(tree: &mut NormalTree<S>, k: usize) -> PseudoInertia<S> {
-    let link = &mut tree.links[k];
-    let mass = std::mem::replace(&mut link.inertia.mass, S::zero());
-    let position = link.position;
-    PseudoInertia { mass, first: position.scale(mass), second: Symmetric3::outer_self(mass, position) }
 }

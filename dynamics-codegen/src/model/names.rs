@@ -39,9 +39,13 @@ fn words(name: &str) -> Vec<String> {
     words
 }
 
-/// The type of a frame: `tool0` is `Tool0`. What would hide a common name, or the robot's own, is `BoxFrame`.
+/// The type of a frame: `tool0` is `Tool0`, and `1st-link` is `Frame1stLink`. What would hide a common name, or the
+/// robot's own, is `BoxFrame`.
 pub fn frame_type(frame: &str, robot: &str) -> String {
     let name = upper_camel_case(frame);
+    if name.starts_with(|first: char| first.is_ascii_digit()) {
+        return format!("Frame{name}");
+    }
     let is_robots = name == robot || name.strip_suffix("Prepared") == Some(robot);
     if is_robots || hides_a_common_name(&name) { name + "Frame" } else { name }
 }

@@ -331,8 +331,8 @@ fn check_inertia(bodies: &[&BodySpec], inertia: PseudoInertia<Expr>, diags: &mut
         return;
     }
     let Some([low, middle, high]) = second_moments(inertia) else { return };
-    // Rods and laminas are on the boundary; of a point mass nothing is left but the rounding of constants.
-    let rounding = 1e-20 * inertia.second.full().trace().as_number().map_or(0.0, Number::to_f64);
+    // Rods and laminas are on the boundary; of a point mass nothing is left but the rounding of whoever wrote the file.
+    let rounding = 1e-15 * inertia.second.full().trace().as_number().map_or(0.0, Number::to_f64);
     if low >= -1e-6 * high.abs().max(middle.abs()) - rounding {
         return;
     }

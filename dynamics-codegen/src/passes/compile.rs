@@ -52,7 +52,7 @@ impl Compiled<'_> {
         self.methods.iter().find(|compiled| compiled.method == method).and_then(|compiled| {
             match &compiled.plan {
                 Plan::StraightLine { program, .. } => Some(program),
-                Plan::FromInverse { .. } | Plan::Table { .. } => None,
+                Plan::Loops { .. } | Plan::Table { .. } => None,
             }
         })
     }
@@ -61,7 +61,7 @@ impl Compiled<'_> {
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
             Plan::StraightLine { program, .. } => Some(program),
-            Plan::FromInverse { .. } | Plan::Table { .. } => None,
+            Plan::Loops { .. } | Plan::Table { .. } => None,
         });
         std::iter::once(&self.companion.preparation).chain(&self.table).chain(of_methods)
     }
@@ -100,10 +100,10 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 let cost = program.cost();
                 (Plan::StraightLine { blocks, program }, cost)
             }
-            Form::FromInverse => {
+            Form::Loops => {
                 let ancestors = plan.ancestors.clone();
-                let cost = cost_from_inverse(method, &ancestors, &compiled);
-                (Plan::FromInverse { ancestors }, cost)
+                let cost = cost_of_loops(method, &ancestors, &compiled);
+                (Plan::Loops { ancestors }, cost)
             }
             Form::Table => {
                 let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));
@@ -127,20 +127,25 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
 }
 
 /// What the loops of the run time cost, with the methods that they call.
-fn cost_from_inverse(method: Method, ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
+fn cost_of_loops(method: Method, ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
     let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
     let n = ancestors.len();
     let pairs: usize = ancestors.iter().map(Vec::len).sum();
-    let eliminated: usize = ancestors.iter().flatten().map(|i| i + 1).sum();
-    let columns = if method == Method::InverseMassMatrix { n } else { 3 * n };
-    let mut cost = Cost {
-        multiplications: count(pairs + eliminated + columns * (2 * pairs + n)),
-        additions: count(eliminated + columns * 2 * pairs),
-        divisions: count(n),
-        ..Cost::default()
+    let mut cost = match method {
+        Method::InverseMassMatrix => Cost {
+            multiplications: count(n * (3 * pairs + n) + 2 * pairs),
+            additions: count(n * (3 * pairs + n)),
+            divisions: count(n),
+            ..Cost::default()
+        },
+        _ => {
+            Cost { multiplications: count(2 * n * n * n), additions: count(2 * n * n * n), ..Cost::default() }
+        }
     };
-    for part in compiled.iter().filter(|part| calls(method).contains(&part.method)) {
-        cost = cost + part.cost;
+    for &part in calls(method) {
+        // Methods come after those that they call.
+        cost = cost
+            + compiled.iter().find(|known| known.method == part).map_or(Cost::default(), |known| known.cost);
     }
     cost
 }

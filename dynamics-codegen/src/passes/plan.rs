@@ -15,6 +15,8 @@ use crate::symbolic::Expr;
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
 /// The most statements that the kinematics of all frames may have together.
 const LONGEST_KINEMATICS: usize = 50_000;
+/// The most statements of a straight line for `M⁻¹`: beyond it loops over rows are as fast.
+const LONGEST_STRAIGHT_INVERSE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
 
@@ -27,9 +29,9 @@ pub enum Plan<'g> {
         /// The operations.
         program: Program,
     },
-    /// Derivatives of forward dynamics from those of inverse dynamics, and `M⁻¹` from `M`, by the run time's loops
-    /// over columns.
-    FromInverse {
+    /// By the run time's loops over rows and columns: derivatives of forward dynamics from `M⁻¹` and the derivatives of
+    /// inverse dynamics, and `M⁻¹` from `M`.
+    Loops {
         /// The joints between each joint and the base.
         ancestors: Vec<Vec<usize>>,
     },
@@ -44,7 +46,7 @@ pub enum Plan<'g> {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Form {
     StraightLine,
-    FromInverse,
+    Loops,
     Table,
 }
 
@@ -77,10 +79,11 @@ impl Plans {
         };
         match method {
             _ if too_long => Form::Table,
-            Method::ForwardDynamicsDerivatives | Method::InverseMassMatrix
-                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE =>
-            {
-                Form::FromInverse
+            Method::ForwardDynamicsDerivatives if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE => {
+                Form::Loops
+            }
+            Method::InverseMassMatrix if self.statements_of_inverse() > LONGEST_STRAIGHT_INVERSE => {
+                Form::Loops
             }
             _ => Form::StraightLine,
         }
@@ -112,6 +115,16 @@ impl Plans {
         }
     }
 
+    /// About how many statements factoring M and solving for half of each unit column takes.
+    fn statements_of_inverse(&self) -> usize {
+        let mut before = 0;
+        let column = |ancestors: &Vec<usize>| {
+            before += ancestors.len();
+            ancestors.len() * ancestors.len() + before
+        };
+        self.ancestors.iter().map(column).sum()
+    }
+
     /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since
     /// nothing is known to be zero.
     pub(super) fn cost_of_table(&self, method: Method) -> Cost {
@@ -136,11 +149,14 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
         Some(wanted) => together(method).iter().any(|name| wanted.contains(name)),
         None => has_of_itself(method, model),
     };
-    let is_called = |method: Method| {
-        let callers = [Method::ForwardDynamicsDerivatives, Method::InverseMassMatrix];
-        let calls = |caller: &Method| calls(*caller).contains(&method) && is_wanted(*caller);
-        callers.iter().filter(|&&caller| plans.form(caller) == Form::FromInverse).any(calls)
+    let calls = |caller: Method| match plans.form(caller) {
+        Form::Loops => calls(caller),
+        _ => &[],
     };
+    let called: Vec<Method> = (Method::OF_ROBOT.into_iter().filter(|&method| is_wanted(method)))
+        .flat_map(|caller| calls(caller).iter().flat_map(move |&called| [&[called], calls(called)].concat()))
+        .collect();
+    let is_called = |method: Method| called.contains(&method);
     let is_too_long = |method: Method| {
         matches!(method.trait_(), Trait::Regressor | Trait::BaseRegressor)
             && plans.form(Method::Regressor) == Form::Table
@@ -164,7 +180,9 @@ fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
 /// What a method in the form of loops calls.
 pub(super) fn calls(method: Method) -> &'static [Method] {
     match method {
-        Method::ForwardDynamicsDerivatives => &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives],
+        Method::ForwardDynamicsDerivatives => {
+            &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives, Method::InverseMassMatrix]
+        }
         Method::InverseMassMatrix => &[Method::MassMatrix],
         _ => &[],
     }

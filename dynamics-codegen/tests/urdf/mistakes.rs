@@ -136,7 +136,7 @@ fn trees() -> Vec<(Code, String)> {
         (Code::Cycle, tree(&["base", "a", "b"], &[["p", "a", "b"], ["q", "b", "a"]])),
         (Code::Cycle, tree(&["a", "b"], &[["p", "a", "a"], ["q", "a", "b"]])),
         (Code::MovesNoMass, tree(&["a", "b"], &[["p", "a", "b"]])),
-        (Code::NameReserved, tree(&["a", "2nd"], &[["p", "a", "2nd"]])),
+        (Code::NameReserved, tree(&["a", "+-"], &[["p", "a", "+-"]])),
         (
             Code::MimicCycle,
             two_joints("continuous", r#"<axis xyz="1 0 0"/><mimic joint="q"/>"#, r#"<mimic joint="p"/>"#),

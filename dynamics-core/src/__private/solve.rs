@@ -5,53 +5,7 @@
 //!
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, §6.5.
 
-use nalgebra::{ArrayStorage, SMatrix};
-
-use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
-
-/// `∂a/∂q = −M⁻¹ ∂τ/∂q`, `∂a/∂v = −M⁻¹ ∂τ/∂v` and `∂a/∂τ = M⁻¹`, from the derivatives of inverse dynamics at
-/// the acceleration that τ causes. `ancestors[i]` lists the joints between joint `i` and the base, any order.
-///
-/// # Cost
-///
-/// One factorisation, and 3·N columns solved: see [`solve_columns`].
-#[inline]
-pub fn forward_from_inverse<T: Scalar, const N: usize>(
-    ancestors: &[&[usize]; N],
-    inverse: &InverseDynamicsDerivatives<T, N>,
-) -> ForwardDynamicsDerivatives<T, N> {
-    let mut l = inverse.dtau_da.data.0;
-    let d_inv = factor(ancestors, &mut l);
-    let solved = |mut rows: [[T; N]; N]| {
-        solve_columns(ancestors, &l, &d_inv, &mut rows);
-        SMatrix::from_array_storage(ArrayStorage(transposed(rows)))
-    };
-    let negative_rows = |m: &SMatrix<T, N, N>| transposed(m.data.0.map(|column| column.map(|x| -x)));
-    ForwardDynamicsDerivatives {
-        da_dq: solved(negative_rows(&inverse.dtau_dq)),
-        da_dv: solved(negative_rows(&inverse.dtau_dv)),
-        da_dtau: solved(identity()),
-    }
-}
-
-/// `M⁻¹`, of a matrix with the sparsity of the tree.
-///
-/// # Cost
-///
-/// One factorisation, and N columns solved: see [`solve_columns`].
-#[inline]
-pub fn inverse_of<T: Scalar, const N: usize>(
-    ancestors: &[&[usize]; N],
-    m: &SMatrix<T, N, N>,
-) -> SMatrix<T, N, N> {
-    let mut l = m.data.0;
-    let d_inv = factor(ancestors, &mut l);
-    let mut rows = identity();
-    solve_columns(ancestors, &l, &d_inv, &mut rows);
-    // Symmetric: its rows are its columns.
-    SMatrix::from_array_storage(ArrayStorage(rows))
-}
 
 /// `M = Lᵀ D L` in place: the lower half of `h` leaves as that of L, and `1/D` is returned.
 ///
@@ -69,10 +23,8 @@ pub fn factor<T: Scalar, const N: usize>(ancestors: &[&[usize]; N], h: &mut [[T;
         for &i in *ancestors {
             let (Some(row_i), Some(l)) = (above.get_mut(i), row_k.get_mut(i)) else { continue };
             *l *= *inverse;
-            let until_i = row_i.iter_mut().zip(&unscaled).take(i + 1);
-            for (x, y) in until_i {
-                *x = (-*l).mul_add(*y, *x);
-            }
+            // Whole rows, in lanes: the part above the diagonal is computed along.
+            subtract(row_i, *l, &unscaled);
         }
     }
     inverse
@@ -120,31 +72,9 @@ pub fn solve_columns<T: Scalar, const N: usize, const M: usize>(
 
 /// `x ← x − factor·y`.
 #[inline(always)]
-fn subtract<T: Scalar, const M: usize>(x: &mut [T; M], factor: T, y: &[T; M]) {
+pub(super) fn subtract<T: Scalar, const M: usize>(x: &mut [T; M], factor: T, y: &[T; M]) {
     let factor = -factor;
     for (x, y) in x.iter_mut().zip(y) {
         *x = factor.mul_add(*y, *x);
     }
-}
-
-fn identity<T: Scalar, const N: usize>() -> [[T; N]; N] {
-    let mut rows = [[T::zero(); N]; N];
-    for (i, row) in rows.iter_mut().enumerate() {
-        if let Some(diagonal) = row.get_mut(i) {
-            *diagonal = T::one();
-        }
-    }
-    rows
-}
-
-fn transposed<T: Scalar, const N: usize>(m: [[T; N]; N]) -> [[T; N]; N] {
-    let mut result = [[T::zero(); N]; N];
-    for (i, row) in result.iter_mut().enumerate() {
-        for (entry, column) in row.iter_mut().zip(&m) {
-            if let Some(value) = column.get(i) {
-                *entry = *value;
-            }
-        }
-    }
-    result
 }

@@ -37,8 +37,8 @@ pub(super) fn write(
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
-        Plan::FromInverse { ancestors } => {
-            text.push_str(&from_inverse(*method, ancestors, scalar, context.sizes));
+        Plan::Loops { ancestors } => {
+            text.push_str(&by_loops(*method, ancestors, scalar, context.sizes));
         }
         Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.sizes)),
         Plan::Table { frame: Some((link, program)) } => {
@@ -115,12 +115,11 @@ fn frame_by_table(
     text
 }
 
-/// The body that leaves the solves to the run time.
-fn from_inverse(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
-    let n = ancestors.len();
+/// The body that leaves the matrices to the run time's loops.
+fn by_loops(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
     let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
     let mut text = format!("    fn {}(&self{arguments}) -> {returned} {{\n", method.name());
-    let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {n}] = [");
+    let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {}] = [", ancestors.len());
     for ancestors in ancestors {
         let list: Vec<String> = ancestors.iter().map(usize::to_string).collect();
         let _ = writeln!(text, "            &[{}],", list.join(", "));
@@ -130,7 +129,8 @@ fn from_inverse(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: S
         Method::InverseMassMatrix => "        inverse_of(&ANCESTORS, &self.mass_matrix(q))\n    }\n",
         _ => {
             "        let a = self.forward_dynamics(q, v, tau);\n        \
-             forward_from_inverse(&ANCESTORS, &self.inverse_dynamics_derivatives(q, v, &a))\n    }\n"
+             let inverse = self.inverse_dynamics_derivatives(q, v, &a);\n        \
+             forward_from_inverse(&ANCESTORS, self.inverse_mass_matrix(q), &inverse)\n    }\n"
         }
     });
     text

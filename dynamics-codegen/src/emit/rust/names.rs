@@ -50,18 +50,8 @@ pub(super) fn angle_suffix(inputs: &[Input], parameter: impl Fn(usize) -> String
 }
 
 /// The functions that generated code calls by their names.
-pub(super) const CALLED: &[&str] = &[
-    "madd",
-    "sin_cos",
-    "sqrt",
-    "of",
-    "vector",
-    "columns",
-    "factor",
-    "forward_from_inverse",
-    "inverse_of",
-    "solve_columns",
-];
+pub(super) const CALLED: &[&str] =
+    &["madd", "sin_cos", "sqrt", "of", "vector", "columns", "forward_from_inverse", "inverse_of"];
 
 /// Whether a local variable may have the name of the field: no keyword, nothing that is called, and no capitals,
 /// as constants and unit structs have, which a pattern would compare with.
