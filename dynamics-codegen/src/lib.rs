@@ -33,10 +33,8 @@ const NESTING_LIMIT: usize = 128;
 /// a robot is reported once and not again at every use of the robot. A file that the robot names is had from
 /// `read`, by its path from the crate's root: the compiler itself reads none.
 pub fn derive(input: TokenStream, read: impl FnOnce(&str) -> Result<Vec<u8>, String>) -> TokenStream {
-    if spec::nested_deeper_than(&input, NESTING_LIMIT) {
-        let mut diags = Diagnostics::new();
-        let message = format!("groups are nested more than {NESTING_LIMIT} deep");
-        diags.error(Code::NestingTooDeep, &Span::call_site().into(), message);
+    let mut diags = Diagnostics::new();
+    if diags.keep(check_nesting(&input)).is_none() {
         return diags.into_compile_errors();
     }
     let input: syn::DeriveInput = match syn::parse2(input) {
@@ -105,23 +103,17 @@ pub fn generate_with(
     Ok(compile(&spec)? + &tracked)
 }
 
-/// The robot of a URDF as it was written, for a public unit struct `name`, and what became of the file. `options`
-/// are those of `#[dynamics(…)]`, as `snap = off`.
+/// The robot of a URDF as it was written, for a public unit struct `name`, and what became of the file. `attributes`
+/// stand on the struct, as `#[dynamics(snap = off)] #[joint(elbow, damping = 0.1)]`.
 ///
 /// # Errors
 ///
-/// All mistakes in the options, or in the file.
-pub fn read_urdf(name: &str, urdf: Urdf<'_>, options: &str) -> Result<(RobotSpec, Report), Diagnostics> {
+/// All mistakes in the attributes, or in the file.
+pub fn read_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<(RobotSpec, Report), Diagnostics> {
     let mut diags = Diagnostics::new();
-    let wrong = |error: syn::Error| {
-        let place = error.span().into();
-        Diagnostic::new(Code::Syntax, &place, format!("`{name}` with the options `{options}`: {error}"))
-    };
-    let ident = syn::parse_str::<syn::Ident>(name).map_err(wrong);
-    let options = options.parse::<TokenStream>().map_err(|error| wrong(error.into()));
-    let (ident, options) = (diags.keep(ident), diags.keep(options));
-    let (Some(ident), Some(options)) = (ident, options) else { return Err(diags) };
-    let mut spec = spec::parse(&syn::parse_quote!(#[dynamics(#options)] pub struct #ident;), &mut diags);
+    let (ident, attributes) = (diags.keep(identifier(name)), diags.keep(attributes_of(attributes)));
+    let (Some(ident), Some(attributes)) = (ident, attributes) else { return Err(diags) };
+    let mut spec = spec::parse(&syn::parse_quote!(#(#attributes)* pub struct #ident;), &mut diags);
     if let Some(path) = &spec.options.urdf {
         diags.error(Code::KeysConflict, &path.place, "the file is given already");
     }
@@ -131,41 +123,78 @@ pub fn read_urdf(name: &str, urdf: Urdf<'_>, options: &str) -> Result<(RobotSpec
     Ok((spec, report))
 }
 
+/// The name of a struct. It has no place: nobody wrote the struct.
+fn identifier(name: &str) -> Result<syn::Ident, Diagnostic> {
+    let place = Span::call_site().into();
+    let wrong = |error| Diagnostic::new(Code::Syntax, &place, format!("the name `{name}`: {error}"));
+    let mut ident = syn::parse_str::<syn::Ident>(name).map_err(wrong)?;
+    ident.set_span(Span::call_site());
+    Ok(ident)
+}
+
+/// Attributes as written.
+fn attributes_of(text: &str) -> Result<Vec<syn::Attribute>, Diagnostic> {
+    let wrong = |error: syn::Error| Diagnostic::new(Code::Syntax, &error.span().into(), error.to_string());
+    let tokens: TokenStream = text.parse().map_err(|error: proc_macro2::LexError| wrong(error.into()))?;
+    check_nesting(&tokens)?;
+    syn::parse::Parser::parse2(syn::Attribute::parse_outer, tokens).map_err(wrong)
+}
+
+/// What reads tokens recurses.
+fn check_nesting(tokens: &TokenStream) -> Result<(), Diagnostic> {
+    if !spec::nested_deeper_than(tokens, NESTING_LIMIT) {
+        return Ok(());
+    }
+    let message = format!("groups are nested more than {NESTING_LIMIT} deep");
+    Err(Diagnostic::new(Code::NestingTooDeep, &Span::call_site().into(), message))
+}
+
 /// The code for the robot of a URDF, for build scripts and command lines: that which the derive on
-/// `pub struct name;` has, without the struct and without tracking the file. `options` are those of
-/// `#[dynamics(…)]`, as `snap = off`.
+/// `pub struct name;` with these attributes has, without the struct and without tracking the file.
 ///
 /// # Errors
 ///
 /// All mistakes of the first phase that found any.
-pub fn generate_urdf(name: &str, urdf: Urdf<'_>, options: &str) -> Result<String, Diagnostics> {
-    let (spec, _) = read_urdf(name, urdf, options)?;
+pub fn generate_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<String, Diagnostics> {
+    let (spec, _) = read_urdf(name, urdf, attributes)?;
     compile(&spec)
 }
 
-/// The code for a robot: the whole compiler behind reading, in order. Each phase sees only the one before it, and
-/// runs only if that found nothing wrong.
+/// The code for a robot.
 fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
-    let mut diags = Diagnostics::new();
     let graph = Graph::new();
+    let (model, compiled) = checked(spec, &graph)?;
+    let item = emit::rust::Item::of(spec, &model);
+    Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+}
 
-    let model = model::build(spec, &graph, &mut diags); //      a checked kinematic tree
+/// A robot judged, and its programs: the whole compiler between reading and writing, in order. Each phase sees only
+/// the one before it, and runs only if that found nothing wrong.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+pub fn checked<'g>(
+    spec: &RobotSpec,
+    graph: &'g Graph,
+) -> Result<(model::Model<'g>, passes::Compiled<'g>), Diagnostics> {
+    let mut diags = Diagnostics::new();
+
+    let model = model::build(spec, graph, &mut diags); //      a checked kinematic tree
     diags.check()?;
     let model = model.expect("a model that is not built has been complained about");
-    check_motions(spec, &model, &graph, &mut diags);
+    check_motions(spec, &model, graph, &mut diags);
     diags.check()?;
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
     let methods = passes::methods(outputs.as_deref(), &model);
-    let compiled = passes::compile(&model, &graph, &methods); // derived, simplified, scheduled
+    let compiled = passes::compile(&model, graph, &methods); // derived, simplified, scheduled
     check_constants(spec, &compiled, &mut diags);
     diags.check()?;
     check_against_plain_recursion(spec, &model, &compiled, &mut diags);
     diags.check()?;
-
-    let item = emit::rust::Item::of(spec, &model);
-    Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+    Ok((model, compiled))
 }
 
 /// Bodies that are sound one by one can leave joints whose motions cancel each other.
@@ -188,15 +217,7 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
 
 /// Numbers that are sound one by one can have products beyond the range of doubles.
 fn check_constants(spec: &spec::RobotSpec, compiled: &passes::Compiled<'_>, diags: &mut Diagnostics) {
-    let out_of_range = |operand: passes::Operand| match operand.source {
-        passes::Source::Constant(value) => !(value.is_finite() && value.to_f64().is_finite()),
-        _ => false,
-    };
-    let operands = |program: &passes::Program| {
-        let of_steps = program.steps.iter().flat_map(|step| step.operation.operands());
-        of_steps.chain(program.results.iter().copied()).any(out_of_range)
-    };
-    if compiled.programs().any(operands) {
+    if compiled.programs().any(|program| program.constant_out_of_range().is_some()) {
         let message = format!("the numbers of `{}` are too large: their products overflow", spec.ident);
         diags.error(Code::NumberOutOfRange, &spec.ident.span().into(), message);
     }

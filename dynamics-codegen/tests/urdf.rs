@@ -45,7 +45,7 @@ fn arm_with(old: &str, new: &str) -> String {
 
 /// The specification and the report of a sound file.
 fn read(text: &str, options: &str) -> (RobotSpec, Report) {
-    read_urdf("Arm", Urdf { file: "arm.urdf", text }, options)
+    read_urdf("Arm", Urdf { file: "arm.urdf", text }, &format!("#[dynamics({options})]"))
         .unwrap_or_else(|wrong| panic!("{}", wrong.into_text()))
 }
 
@@ -56,6 +56,6 @@ fn mistakes_in(text: &str, options: &str) -> Vec<Diagnostic> {
         let _ = model::build(spec, &symbolic::Graph::new(), &mut diags);
         diags
     };
-    let found = read_urdf("Arm", Urdf { file: "arm.urdf", text }, options);
+    let found = read_urdf("Arm", Urdf { file: "arm.urdf", text }, &format!("#[dynamics({options})]"));
     found.map_or_else(|wrong| wrong, |(spec, _)| judged(&spec)).take()
 }

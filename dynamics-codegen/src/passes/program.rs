@@ -162,7 +162,7 @@ impl Program {
     pub fn constant_out_of_range(&self) -> Option<Number> {
         let operands = self.steps.iter().flat_map(|step| step.operation.operands());
         operands.chain(self.results.iter().copied()).find_map(|operand| match operand.source {
-            Source::Constant(value) if !value.to_f64().is_finite() => Some(value),
+            Source::Constant(value) if !(value.is_finite() && value.to_f64().is_finite()) => Some(value),
             _ => None,
         })
     }

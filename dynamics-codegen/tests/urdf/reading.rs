@@ -173,14 +173,17 @@ fn nonphysical_inertias_can_be_allowed() {
 /// One body of text for the derive, the build script and the command line.
 #[test]
 fn every_door_leads_to_the_same_code() {
-    let input: syn::DeriveInput =
-        syn::parse_str("#[dynamics(urdf = \"robots/arm.urdf\", snap = off)] pub struct Arm;").unwrap();
+    let beside = "#[joint(q, rotor = 1e-4, gear = 50)] #[body(load, solid = point(2kg))]
+        #[joint(grip: fixed, a -> load)]";
+    let attributes = format!("#[dynamics(urdf = \"robots/arm.urdf\", snap = off, base = free)] {beside}");
+    let input: syn::DeriveInput = syn::parse_str(&format!("{attributes} pub struct Arm;")).unwrap();
     let derived = generate_with(&input, |path| {
         assert_eq!(path, "robots/arm.urdf");
         Ok(ARM.as_bytes().to_vec())
     });
     let derived = derived.unwrap_or_else(|wrong| panic!("{}", wrong.into_text()));
-    let generated = generate_urdf("Arm", Urdf { file: "anywhere/else.urdf", text: ARM }, "snap = off");
+    let attributes = format!("#[dynamics(base = free)] {beside} #[dynamics(snap = off)]");
+    let generated = generate_urdf("Arm", Urdf { file: "anywhere/else.urdf", text: ARM }, &attributes);
     let generated = generated.unwrap_or_else(|wrong| panic!("{}", wrong.into_text()));
     let tracking = derived.strip_prefix(&generated).expect("the derive only adds to it");
     assert_eq!(
@@ -192,16 +195,21 @@ fn every_door_leads_to_the_same_code() {
 }
 
 #[test]
-fn options_of_a_build_script_are_checked() {
-    for (name, options) in [
-        ("Arm", "snap = maybe"),
-        ("Arm", "urdf = \"b.urdf\""),
-        ("Arm", ")"),
+fn attributes_of_a_build_script_are_checked() {
+    let deep = format!("#[joint({}{})]", "(".repeat(10_000), ")".repeat(10_000));
+    for (name, attributes) in [
+        ("Arm", "#[dynamics(snap = maybe)]"),
+        ("Arm", "#[dynamics(urdf = \"b.urdf\")]"),
+        ("Arm", "#[dynamics()])"),
+        ("Arm", "snap = off"),
         ("an arm", ""),
-        ("Arm", "snap = \""),
+        ("Arm", "#[dynamics(snap = \")]"),
+        ("Arm", "#[joint(no_such, damping = 1)]"),
+        ("Arm", &deep),
     ] {
-        let found = generate_urdf(name, Urdf { file: "arm.urdf", text: ARM }, options).unwrap_err().take();
-        assert_eq!(found.len(), 1, "{name} {options}");
+        let urdf = Urdf { file: "arm.urdf", text: ARM };
+        let found = generate_urdf(name, urdf, attributes).unwrap_err().take();
+        assert_eq!(found.len(), 1, "{name} {attributes}");
     }
 }
 
