@@ -3,16 +3,19 @@
 use dynamics_codegen::diagnostics::Place;
 use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle};
+use dynamics_codegen::model::{JointInfo, Limits, Motion, Passive};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
-use dynamics_codegen::spec::{JointKind, RobotSpec, plain, welded};
+use dynamics_codegen::spec::{JointKind, JointSpec, RobotSpec, plain, welded};
 use dynamics_codegen::symbolic::{Graph, Number};
 
 use crate::failure::Failure;
 use crate::input::{Input, InputArgs, shown};
 use crate::output::{print, table};
-use crate::robot::{Read, Robot, Wanted};
+use crate::progress::Progress;
+use crate::robot::{Robot, State, Wanted};
 use crate::tree;
+use crate::wording::for_the_command_line;
 
 /// Say what a file describes, what was not used of it, and whether it can be a robot
 #[derive(clap::Args)]
@@ -27,32 +30,38 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
-    let text = summary(&input, &robot);
+    let _progress = Progress::of("checking");
+    let text = summary(args, &input, &robot);
     print(&text.split('\n').map(shown).collect::<Vec<_>>().join("\n"))
 }
 
-fn summary(input: &Input, robot: &Robot<'_>) -> String {
-    let read = &robot.read;
-    let Read { spec, report, .. } = read;
+fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
+    let Robot { spec, report, .. } = robot;
     let name =
         report.robot.as_deref().map_or(String::new(), |name| format!(" `{}`", name.replace('\n', " ")));
     let mut text = format!("robot{name} in {}\n", input.name);
     text += &format!("  {}, {}\n", counted(report.links, "link", "links"), joints(spec, report.joints));
-    text += &format!("  {}\n", counted(read.model.tree.dof(), "degree of freedom", "degrees of freedom"));
-    text += &format!("  {}\n", mass(read));
+    for fact in [base(robot), freedom(robot), mass(robot), parameters(robot)] {
+        text += &format!("  {fact}\n");
+    }
     text += "\ntree\n";
     text += &tree::draw(spec, &report.root);
-    text += "\njoints\n";
-    text += &limits(read);
+    for (title, rows) in
+        [("joints", of_joints(robot)), ("followers", followers(spec)), ("passive", passive(robot))]
+    {
+        if !rows.is_empty() {
+            text += &format!("\n{title}\n{rows}");
+        }
+    }
     text += "\nchecks\n";
-    text += &checks(input, robot);
+    text += &checks(args, robot);
     for (title, notes) in [
         ("merged", &report.merged),
         ("ignored", &report.ignored),
         ("snapped", &report.snapped),
         ("remarks", &report.remarks),
     ] {
-        text += &listed(title, notes);
+        text += &listed(title, notes, input);
     }
     text
 }
@@ -63,20 +72,49 @@ fn counted(count: usize, one: &str, many: &str) -> String {
 
 /// The joints of the file: that of a free base is not one of them.
 fn joints(spec: &RobotSpec, count: usize) -> String {
-    let of_file: Vec<_> =
-        spec.joints.iter().filter(|joint| matches!(joint.place, Place::Text { .. })).collect();
-    let moving = of_file.iter().filter(|joint| joint.has_coordinates()).count();
     let is_welded = welded(&spec.joints);
-    let following = spec.joints.iter().zip(is_welded);
-    let following = following.filter(|(joint, still)| joint.keys.mimic.is_some() && !still).count();
-    let fixed = count.saturating_sub(moving + following);
-    let followers = if following > 0 { format!("{following} following, ") } else { String::new() };
-    format!("{} ({moving} moving, {followers}{fixed} fixed)", counted(count, "joint", "joints"))
+    let of_file = spec.joints.iter().zip(is_welded);
+    let of_file: Vec<_> = of_file.filter(|(joint, _)| matches!(joint.place, Place::Text { .. })).collect();
+    let moving = of_file.iter().filter(|(joint, _)| joint.has_coordinates()).count();
+    let following = of_file.iter().filter(|(joint, still)| joint.keys.mimic.is_some() && !still).count();
+    let locked = of_file.iter().filter(|(joint, still)| joint.kind != JointKind::Fixed && *still).count();
+    let fixed = count.saturating_sub(moving + following + locked);
+    let parts = [(moving, "moving"), (following, "following"), (locked, "locked"), (fixed, "fixed")];
+    let parts = parts.into_iter().filter(|(count, what)| *count > 0 || matches!(*what, "moving" | "fixed"));
+    let parts: Vec<String> = parts.map(|(count, what)| format!("{count} {what}")).collect();
+    format!("{} ({})", counted(count, "joint", "joints"), parts.join(", "))
+}
+
+/// How it is in the world.
+fn base(robot: &Robot<'_>) -> String {
+    let root = &robot.report.root;
+    let of_root =
+        robot.spec.joints.iter().find(|joint| joint.child.text == *root && joint.parent.text == "world");
+    match of_root {
+        Some(joint) if joint.kind == JointKind::Free => {
+            format!("its base `{root}` is free, by the joint `{}`", joint.name)
+        }
+        _ if root.is_empty() => "its base is carried by a joint of the command line".to_owned(),
+        _ => format!("its base `{root}` is fixed"),
+    }
+}
+
+fn freedom(robot: &Robot<'_>) -> String {
+    let (n, driven) = (robot.dof(), robot.model.actuated.len());
+    let mut text = counted(n, "degree of freedom", "degrees of freedom");
+    if robot.tree.coordinates() != n {
+        text += &format!(" and {} coordinates", robot.tree.coordinates());
+    }
+    match driven {
+        _ if driven == n => text,
+        0 => text + ", none actuated",
+        _ => text + &format!(", {driven} of them actuated"),
+    }
 }
 
 /// The mass, exactly.
-fn mass(read: &Read<'_>) -> String {
-    let tree = &read.model.tree;
+fn mass(robot: &Robot<'_>) -> String {
+    let tree = &robot.model.tree;
     let moving = tree.links.iter().filter_map(|link| link.inertia.mass.as_number());
     let moving = moving.fold(Number::ZERO, |sum, mass| sum + mass);
     let base = tree.base.mass.as_number().unwrap_or(Number::ZERO);
@@ -84,43 +122,106 @@ fn mass(read: &Read<'_>) -> String {
     format!("{} kg{at_rest}", plain(moving + base))
 }
 
-fn limits(read: &Read<'_>) -> String {
-    let head = ["", "joint", "kind", "lower", "upper", "velocity", "effort"].map(str::to_owned);
-    let mut rows = vec![head.to_vec()];
-    let moving = read.spec.joints.iter().filter(|joint| joint.has_coordinates());
-    let limit = |value: f64, unit: &str| match value.is_finite() {
-        true => format!("{value} {unit}"),
-        false => "-".to_owned(),
-    };
-    for (info, joint) in read.model.joints.iter().zip(moving) {
-        // A joint of several degrees of freedom has none.
-        let Some(limits) = info.limits.first() else { continue };
-        let slides = joint.kind == JointKind::Prismatic;
-        let [unit, speed, force] = if slides { ["m", "m/s", "N"] } else { ["rad", "rad/s", "N·m"] };
-        rows.push(vec![
-            tree::entries(&info.q),
-            info.name.clone(),
-            joint.kind.name().to_owned(),
-            limit(limits.lower, unit),
-            limit(limits.upper, unit),
-            limit(limits.velocity, speed),
-            limit(limits.effort, force),
-        ]);
+fn parameters(robot: &Robot<'_>) -> String {
+    let compiled = &robot.compiled;
+    match (compiled.base_parameter_names.len(), compiled.parameter_names.len()) {
+        (_, 0) => "too large for a regressor".to_owned(),
+        (base, all) => format!("{base} base parameters, of {all} parameters"),
     }
-    table("lllrrrr", &rows)
+}
+
+/// The joints with coordinates, their entries of q, v and u, and their limits.
+fn of_joints(robot: &Robot<'_>) -> String {
+    let inputs = &robot.model.actuated;
+    // Where all have one entry of each, that of q is enough.
+    let is_plain = robot.tree.coordinates() == robot.dof() && inputs.len() == robot.dof();
+    let entries = if is_plain { vec![""] } else { vec!["", "", ""] };
+    let head = [entries, vec!["joint", "kind", "lower", "upper", "velocity", "effort"]].concat();
+    let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(str::to_owned).collect()];
+    let moving = robot.spec.joints.iter().filter(|joint| joint.has_coordinates());
+    for (info, joint) in robot.model.joints.iter().zip(moving) {
+        let mut row = vec![tree::entries("q", &info.q)];
+        if !is_plain {
+            row.push(tree::entries("v", &info.v));
+            let first = inputs.iter().position(|speed| info.v.contains(speed));
+            row.push(first.map_or("no input".to_owned(), |u| tree::entries("u", &(u..u + info.v.len()))));
+        }
+        row.extend([info.name.clone(), joint.kind.name().to_owned()]);
+        row.extend(limits(info, joint.kind));
+        rows.push(row);
+    }
+    table(if is_plain { "lllrrrr" } else { "lllllrrrr" }, &rows)
+}
+
+/// Lower, upper, velocity, effort: of a joint of several degrees of freedom there are none.
+fn limits(info: &JointInfo, kind: JointKind) -> [String; 4] {
+    let [position, speed, force] =
+        if kind == JointKind::Prismatic { ["m", "m/s", "N"] } else { ["rad", "rad/s", "N·m"] };
+    let of = |value: fn(&Limits) -> f64, unit: &str| {
+        let value = info.limits.first().map(value).filter(|value| value.is_finite());
+        value.map_or("-".to_owned(), |value| format!("{value} {unit}"))
+    };
+    [
+        of(|limits| limits.lower, position),
+        of(|limits| limits.upper, position),
+        of(|limits| limits.velocity, speed),
+        of(|limits| limits.effort, force),
+    ]
+}
+
+/// Joints that follow others, as `finger2 = -1·finger1 + 0.02`.
+fn followers(spec: &RobotSpec) -> String {
+    let is_welded = welded(&spec.joints);
+    let following = spec.joints.iter().zip(is_welded).filter(|(_, still)| !still);
+    let line = |(joint, _): (&JointSpec, bool)| {
+        let leader = joint.keys.mimic.as_ref()?;
+        let ratio =
+            joint.keys.ratio.as_ref().map_or(String::new(), |ratio| format!("{}·", ratio.short_text()));
+        let offset =
+            joint.keys.offset.as_ref().map_or(String::new(), |offset| format!(" + {}", offset.short_text()));
+        Some(format!("  {} = {ratio}{leader}{offset}\n", joint.name))
+    };
+    following.filter_map(line).collect()
+}
+
+/// What acts in joints by itself.
+fn passive(robot: &Robot<'_>) -> String {
+    let mut rows = vec![];
+    for (link, info) in robot.tree.links.iter().zip(&robot.model.links).filter(|(_, info)| info.acts) {
+        let Passive { armature, damping, friction, stiffness, .. } = link.passive;
+        let slides = link.motion == Motion::Prismatic;
+        let units = match slides {
+            true => ["kg", "N·s/m", "N", "N/m"],
+            false => ["kg·m²", "N·m·s/rad", "N·m", "N·m/rad"],
+        };
+        let values = [armature, damping, friction, stiffness];
+        if values == [0.0; 4] {
+            continue;
+        }
+        let cell = |(value, unit): (f64, &str)| match value {
+            0.0 => "-".to_owned(),
+            value => format!("{value} {unit}"),
+        };
+        rows.push([vec![info.joint.clone()], values.into_iter().zip(units).map(cell).collect()].concat());
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    rows.insert(0, ["joint", "armature", "damping", "friction", "stiffness"].map(str::to_owned).to_vec());
+    table("lrrrr", &rows)
 }
 
 /// What holds, since the robot was accepted.
-fn checks(input: &Input, robot: &Robot<'_>) -> String {
-    let tree = &robot.read.tree;
-    let allowed = input.options.contains("nonphysical_inertia");
-    let inertias =
-        if allowed { "inertias were not judged" } else { "each body that moves has a possible inertia" };
-    let mut q = vec![0.0; tree.coordinates()];
-    tree.normalise(&mut q);
-    let definite = match Cholesky::of(&Oracle::new(tree).mass_matrix(&q)) {
-        Some(_) => "M(q) is positive definite at q = 0",
-        None => "M(q) is NOT positive definite at q = 0: forward dynamics has no meaning there",
+fn checks(args: &Args, robot: &Robot<'_>) -> String {
+    let inertias = match args.input.judges_inertias() {
+        true => "each body that moves has a possible inertia",
+        false => "inertias were not judged",
+    };
+    let is_flat = robot.tree.quaternions().next().is_none();
+    let at = if is_flat { "at q = 0" } else { "at the neutral q" };
+    let definite = match Cholesky::of(&Oracle::new(&robot.tree).mass_matrix(&State::neutral(robot).q)) {
+        Some(_) => format!("M(q) is positive definite {at}"),
+        None => format!("M(q) is NOT positive definite {at}: forward dynamics has no meaning there"),
     };
     let methods = &robot.compiled.methods;
     let compared = methods.iter().filter(|method| matches!(method.plan, Plan::StraightLine { .. })).count();
@@ -131,7 +232,7 @@ fn checks(input: &Input, robot: &Robot<'_>) -> String {
 }
 
 /// Notes in the order of the file.
-fn listed(title: &str, notes: &[Note]) -> String {
+fn listed(title: &str, notes: &[Note], input: &Input) -> String {
     if notes.is_empty() {
         return String::new();
     }
@@ -144,9 +245,11 @@ fn listed(title: &str, notes: &[Note]) -> String {
     for note in notes {
         let place = match &note.place {
             Place::Text { file, line, column } => format!("{file}:{line}:{column}: "),
-            Place::Tokens { .. } => String::new(),
+            Place::Tokens { .. } => {
+                input.attributes.spot(&note.place).map_or(String::new(), |spot| format!("{}: ", spot.file))
+            }
         };
-        text += &format!("  {place}{}\n", note.text);
+        text += &format!("  {place}{}\n", for_the_command_line(&note.text));
     }
     text
 }

@@ -35,10 +35,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 fn row(robot: &Robot<'_>, compiled: &CompiledMethod<'_>) -> Vec<String> {
-    let frame = match compiled.method {
-        Method::Pose(k) | Method::Jacobian(k) | Method::WorldJacobian(k) => robot.read.tree.frames.get(k),
-        _ => None,
-    };
+    let frame = compiled.method.frame().and_then(|k| robot.tree.frames.get(k));
     let frame = frame.map_or(String::new(), |frame| format!("::<{}>", frame.name));
     let cost = compiled.cost;
     let form = match compiled.plan {

@@ -1,21 +1,18 @@
 //! Why a command did not do what it was asked for.
 
+use std::ops::Range;
 use std::process::ExitCode;
 
 use dynamics_codegen::diagnostics::{Diagnostic, Diagnostics, Place};
 
 use crate::input::Input;
-use crate::render;
+use crate::render::{self, line_of, span_at};
+use crate::wording::for_the_command_line;
 
 /// What ends a command.
 pub(crate) enum Failure {
-    /// What is wrong, in order, and what it is wrong in.
-    Wrong {
-        /// At least one.
-        problems: Vec<Problem>,
-        /// The text that their places are in.
-        text: String,
-    },
+    /// What is wrong, in order; at least one problem.
+    Wrong(Vec<Problem>),
     /// Who read the output has gone: there is nobody to tell.
     PipeClosed,
 }
@@ -41,6 +38,24 @@ pub(crate) struct Spot {
     pub(crate) line: usize,
     /// In characters, from 1.
     pub(crate) column: usize,
+    /// The line, if it can be shown, and what of it is meant, in bytes.
+    pub(crate) source: Option<(String, Range<usize>)>,
+}
+
+impl Spot {
+    /// The place of what begins at a line and a column of a text.
+    pub(crate) fn in_text(file: impl Into<String>, text: &str, line: usize, column: usize) -> Self {
+        let source = line_of(text, line).map(|line| (line.to_owned(), span_at(line, column)));
+        Self { file: file.into(), line, column, source }
+    }
+
+    /// The place of some characters, from 0, of a text that is one line.
+    pub(crate) fn in_line(file: String, line: &str, characters: Range<usize>) -> Self {
+        let byte = |k: usize| line.char_indices().nth(k).map_or(line.len(), |(byte, _)| byte);
+        let column = characters.start + 1;
+        let span = byte(characters.start)..byte(characters.end.max(characters.start));
+        Self { file, line: 1, column, source: line_of(line, 1).map(|line| (line.to_owned(), span)) }
+    }
 }
 
 impl Problem {
@@ -55,16 +70,17 @@ impl Problem {
     }
 }
 
-impl From<&Diagnostic> for Problem {
-    fn from(found: &Diagnostic) -> Self {
+impl Problem {
+    /// A mistake that the compiler found in what was given.
+    fn of(found: &Diagnostic, input: &Input) -> Self {
         let spot = match &found.place {
-            Place::Tokens { .. } => None,
+            Place::Tokens { .. } => input.attributes.spot(&found.place),
             Place::Text { file, line, column } => {
-                Some(Spot { file: file.to_string(), line: *line as usize, column: *column as usize })
+                Some(Spot::in_text(&**file, &input.text, *line as usize, *column as usize))
             }
         };
         Self {
-            title: found.message.clone(),
+            title: for_the_command_line(&found.message),
             spot,
             help: Some(for_the_command_line(found.help_text())),
             code: Some(found.code.to_string()),
@@ -72,31 +88,23 @@ impl From<&Diagnostic> for Problem {
     }
 }
 
-/// What is written in attributes of Rust, written as options.
-fn for_the_command_line(help: &str) -> String {
-    help.replace("#[dynamics(allow(nonphysical_inertia))]", "--allow nonphysical_inertia")
-        .replace("#[dynamics(passive = off)]", "--passive off")
-        .replace("#[dynamics(snap = off)]", "--snap off")
-}
-
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
-        Self::Wrong { problems: vec![problem], text: String::new() }
+        Self::Wrong(vec![problem])
     }
 }
 
 impl Failure {
-    /// Mistakes that the compiler found in a file.
+    /// Mistakes that the compiler found in a file, or in what the command line says beside it.
     pub(crate) fn mistakes(mut found: Diagnostics, input: &Input) -> Self {
-        let problems = found.take().iter().map(Problem::from).collect();
-        Self::Wrong { problems, text: input.text.clone() }
+        Self::Wrong(found.take().iter().map(|found| Problem::of(found, input)).collect())
     }
 
     /// Tells the user.
     pub(crate) fn report(self) -> ExitCode {
         match self {
-            Self::Wrong { problems, text } => {
-                render::to_stderr(&problems, &text);
+            Self::Wrong(problems) => {
+                render::to_stderr(&problems);
                 ExitCode::FAILURE
             }
             Self::PipeClosed => ExitCode::SUCCESS,

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use dynamics_codegen::diagnostics::{Code, Diagnostics};
 use dynamics_codegen::spec::urdf::{SIZE_LIMIT, Urdf, text_of};
 
+use crate::attributes::Attributes;
 use crate::failure::{Failure, Problem};
 
 /// The options of all commands that read a robot.
@@ -16,6 +17,22 @@ pub(crate) struct InputArgs {
     #[arg(value_name = "FILE")]
     pub(crate) file: PathBuf,
 
+    /// How the root of the file is in the world: welded, or moved freely by a joint `root_joint`
+    #[arg(long, value_name = "BASE", default_value = "fixed")]
+    base: Base,
+
+    /// The acceleration of free fall, in m/s²; without it, `[0, 0, -9.81]`
+    #[arg(long, value_name = "[X, Y, Z]")]
+    gravity: Option<String>,
+
+    /// What the file does not say of a joint, or a joint of its own, as in `#[joint(…)]`: 'elbow, armature = 0.2'
+    #[arg(long = "joint", value_name = "TEXT")]
+    joints: Vec<String>,
+
+    /// What the file does not say of a link, or a body of its own, as in `#[body(…)]`: 'load, solid = point(2kg)'
+    #[arg(long = "body", value_name = "TEXT")]
+    bodies: Vec<String>,
+
     /// Accept what is refused otherwise: bodies whose inertia no distribution of mass has
     #[arg(long, value_name = "WHAT", value_parser = ["nonphysical_inertia"])]
     allow: Option<String>,
@@ -24,13 +41,16 @@ pub(crate) struct InputArgs {
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     snap: Switch,
 
-    /// How the robot's root is in the world: welded, or free to move, with the coordinates x, y, z, i, j, k, w
-    #[arg(long, value_name = "KIND", default_value = "fixed")]
-    base: Base,
-
     /// Whether the damping and friction of the file act
     #[arg(long, value_name = "SWITCH", default_value = "on")]
     passive: Switch,
+}
+
+/// How the root of a file is in the world.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Base {
+    Fixed,
+    Free,
 }
 
 /// On or off.
@@ -40,21 +60,14 @@ enum Switch {
     Off,
 }
 
-/// How a root is in the world.
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum Base {
-    Fixed,
-    Free,
-}
-
 /// A file that was read.
 pub(crate) struct Input {
     /// As it was named on the command line.
     pub(crate) name: String,
     /// What is in it.
     pub(crate) text: String,
-    /// The options, as in `#[dynamics(…)]`.
-    pub(crate) options: String,
+    /// What the command line says beside it.
+    pub(crate) attributes: Attributes,
 }
 
 impl InputArgs {
@@ -66,36 +79,47 @@ impl InputArgs {
             let message = format!("{name} has more than {SIZE_LIMIT} bytes");
             return Err(Problem::new(message).help(Code::FileTooLarge.help()).into());
         }
-        let options = self.options();
+        let attributes = self.attributes().checked()?;
         let mut diags = Diagnostics::new();
         match diags.keep(text_of(&name, &bytes).map(str::to_owned)) {
-            Some(text) => Ok(Input { name, text, options }),
+            Some(text) => Ok(Input { name, text, attributes }),
             None => {
                 let text = String::from_utf8_lossy(&bytes).into_owned();
-                Err(Failure::mistakes(diags, &Input { name, text, options }))
+                Err(Failure::mistakes(diags, &Input { name, text, attributes }))
             }
         }
     }
 
-    /// As in `#[dynamics(…)]`.
-    fn options(&self) -> String {
-        let allow = self.allow.iter().map(|what| format!("allow({what})"));
-        let others = self.others().map(|(name, value)| format!("{name} = {value}"));
-        allow.chain(others).collect::<Vec<_>>().join(", ")
+    /// Whether a body of an inertia that no distribution of mass has is refused.
+    pub(crate) fn judges_inertias(&self) -> bool {
+        self.allow.is_none()
     }
 
-    /// As on the command line, with a space before each.
-    pub(crate) fn flags(&self) -> String {
-        let allow = self.allow.iter().map(|what| format!(" --allow {what}"));
-        allow.chain(self.others().map(|(name, value)| format!(" --{name} {value}"))).collect()
-    }
-
-    /// What is not as it is by default.
-    fn others(&self) -> impl Iterator<Item = (&'static str, &'static str)> {
-        let base = (self.base == Base::Free).then_some(("base", "free"));
-        let switches = [("snap", self.snap), ("passive", self.passive)];
-        let off = switches.into_iter().filter(|(_, switch)| *switch == Switch::Off);
-        base.into_iter().chain(off.map(|(name, _)| (name, "off")))
+    /// What is said beside the file, and is not the default.
+    fn attributes(&self) -> Attributes {
+        let mut attributes = Attributes::default();
+        if self.base == Base::Free {
+            attributes.add("base", "#[dynamics(base = ", "free", ")]");
+        }
+        if let Some(gravity) = &self.gravity {
+            attributes.add("gravity", "#[dynamics(gravity = ", gravity, ")]");
+        }
+        for joint in &self.joints {
+            attributes.add("joint", "#[joint(", joint, ")]");
+        }
+        for body in &self.bodies {
+            attributes.add("body", "#[body(", body, ")]");
+        }
+        if let Some(allow) = &self.allow {
+            attributes.add("allow", "#[dynamics(allow(", allow, "))]");
+        }
+        if self.snap == Switch::Off {
+            attributes.add("snap", "#[dynamics(snap = ", "off", ")]");
+        }
+        if self.passive == Switch::Off {
+            attributes.add("passive", "#[dynamics(passive = ", "off", ")]");
+        }
+        attributes
     }
 }
 

@@ -3,13 +3,16 @@
 //! What it prints goes to standard output, and is the same for the same input; mistakes go to standard error. It exits
 //! with 1 if the input is wrong, and with 2 if the command line is.
 
+mod attributes;
 mod check;
+mod coordinates;
 mod count;
 mod eval;
 mod explain;
 mod failure;
 mod generate;
 mod input;
+mod motion;
 mod output;
 mod progress;
 mod render;
@@ -17,6 +20,7 @@ mod robot;
 mod simulate;
 mod state;
 mod tree;
+mod wording;
 
 use std::process::ExitCode;
 

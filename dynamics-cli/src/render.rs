@@ -11,18 +11,18 @@ use crate::failure::{Problem, Spot};
 const LONGEST_LINE: usize = 4096;
 
 /// Writes problems to standard error, in colours if a person is watching.
-pub(crate) fn to_stderr(problems: &[Problem], text: &str) {
+pub(crate) fn to_stderr(problems: &[Problem]) {
     let stderr = std::io::stderr();
     let colours = stderr.is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty());
     let renderer = if colours { Renderer::styled() } else { Renderer::plain() };
     // Nobody is left to be told that there is nobody to tell.
-    let _ = stderr.lock().write_all(as_text(problems, text, &renderer).as_bytes());
+    let _ = stderr.lock().write_all(as_text(problems, &renderer).as_bytes());
 }
 
-fn as_text(problems: &[Problem], text: &str, renderer: &Renderer) -> String {
+fn as_text(problems: &[Problem], renderer: &Renderer) -> String {
     let mut rendered = String::new();
     for problem in problems {
-        rendered += &renderer.render(&[group(problem, text)]);
+        rendered += &renderer.render(&[group(problem)]);
         rendered += "\n\n";
     }
     if problems.len() > 1 {
@@ -35,15 +35,14 @@ fn as_text(problems: &[Problem], text: &str, renderer: &Renderer) -> String {
     rendered
 }
 
-fn group<'a>(problem: &'a Problem, text: &'a str) -> Group<'a> {
+fn group(problem: &Problem) -> Group<'_> {
     let Problem { title, spot, help, code } = problem;
     let mut group = Group::with_title(Level::ERROR.primary_title(title.as_str()));
     if let Some(spot) = spot {
-        group = match line_of(text, spot.line) {
-            Some(line) => {
-                let snippet = Snippet::source(line).path(spot.file.as_str()).line_start(spot.line);
-                let span = AnnotationKind::Primary.span(span_at(line, spot.column));
-                group.element(snippet.annotation(span))
+        group = match &spot.source {
+            Some((line, span)) => {
+                let snippet = Snippet::source(line.as_str()).path(spot.file.as_str()).line_start(spot.line);
+                group.element(snippet.annotation(AnnotationKind::Primary.span(span.clone())))
             }
             None => group.element(origin(spot)),
         };
@@ -63,7 +62,7 @@ fn origin(spot: &Spot) -> Origin<'_> {
 }
 
 /// A line that can be shown.
-fn line_of(text: &str, line: usize) -> Option<&str> {
+pub(crate) fn line_of(text: &str, line: usize) -> Option<&str> {
     let text = text.trim_start_matches('\u{feff}');
     let found = text.split('\n').nth(line.checked_sub(1)?)?;
     let found = found.strip_suffix('\r').unwrap_or(found);
@@ -71,7 +70,7 @@ fn line_of(text: &str, line: usize) -> Option<&str> {
 }
 
 /// What begins at a column, in bytes: a tag to its end, a word of a value, all of an empty value's quotes.
-fn span_at(line: &str, column: usize) -> Range<usize> {
+pub(crate) fn span_at(line: &str, column: usize) -> Range<usize> {
     let start = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(start, _)| start);
     let rest = &line[start..];
     let length = if rest.starts_with('<') {

@@ -1,17 +1,17 @@
 //! A robot that can be asked for numbers: its programs, run by the interpreter.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::equations::{Argument, Input as Symbol, Method};
-use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows};
-use dynamics_codegen::mechanics::singular::idle_motion;
-use dynamics_codegen::model::{self, Model, Tree};
-use dynamics_codegen::passes::{self, Compiled, Plan};
-use dynamics_codegen::spec::RobotSpec;
+use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows, total_mass};
+use dynamics_codegen::model::{Model, Tree};
+use dynamics_codegen::passes::{Compiled, Plan};
 use dynamics_codegen::spec::urdf::Report;
+use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
-use dynamics_codegen::{generate_urdf, read_urdf};
+use dynamics_codegen::{checked, read_urdf};
+use proc_macro2::Span;
 
+use crate::coordinates::Coordinates;
 use crate::failure::{Failure, Problem};
 use crate::input::Input;
 use crate::progress::Progress;
@@ -19,8 +19,8 @@ use crate::progress::Progress;
 /// The name of the struct where nobody will see it.
 pub(crate) const NAME: &str = "Robot";
 
-/// A robot as it was read and judged.
-pub(crate) struct Read<'g> {
+/// A robot that was read, judged and compiled.
+pub(crate) struct Robot<'g> {
     /// As written.
     pub(crate) spec: RobotSpec,
     /// What became of the file.
@@ -29,12 +29,8 @@ pub(crate) struct Read<'g> {
     pub(crate) model: Model<'g>,
     /// In doubles, for the plain recursions.
     pub(crate) tree: Tree<f64>,
-}
-
-/// A robot with its programs.
-pub(crate) struct Robot<'g> {
-    /// As it was read and judged.
-    pub(crate) read: Read<'g>,
+    /// What its coordinates and speeds are called.
+    pub(crate) coordinates: Coordinates,
     /// The programs.
     pub(crate) compiled: Compiled<'g>,
 }
@@ -61,54 +57,37 @@ pub(crate) struct State {
     pub(crate) tau: Vec<f64>,
 }
 
-impl<'g> Read<'g> {
-    /// Reads and judges a file.
-    fn of(input: &Input, graph: &'g Graph) -> Result<Self, Failure> {
-        let wrong = |found| Failure::mistakes(found, input);
-        let (spec, report) = read_urdf(NAME, input.urdf(), &input.options).map_err(wrong)?;
-        let mut diags = Diagnostics::new();
-        let model = model::build(&spec, graph, &mut diags);
-        diags.check().map_err(wrong)?;
-        let Some(model) = model else {
-            return Err(Problem::new(format!("{} cannot be understood", input.name)).into());
-        };
-        // A file has no parameters.
-        let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
-        let tree = model.tree.map(|expr| evaluator.value(expr));
-        Ok(Self { spec, report, model, tree })
-    }
-}
-
 impl<'g> Robot<'g> {
     /// Reads, judges and compiles a file.
     pub(crate) fn of(input: &Input, graph: &'g Graph, wanted: Wanted<'_>) -> Result<Self, Failure> {
         let _progress = Progress::of(&format!("compiling {}", input.name));
-        let read = Read::of(input, graph)?;
-        let model = &read.model;
-        let names: Option<Vec<&str>> = match wanted {
-            Wanted::Only(methods) => Some(methods.iter().map(|method| method.name()).collect()),
-            Wanted::All => None,
-        };
-        let compiled = passes::compile(model, graph, &passes::methods(names.as_deref(), model));
-        let is_sound = idle_motion(model, graph).is_none()
-            && compiled.programs().all(|program| program.constant_out_of_range().is_none())
-            && passes::disagreements(model, &compiled).is_empty();
-        // The compiler finds the same once more, and has the words for it.
-        if !is_sound {
-            generate_urdf(NAME, input.urdf(), &input.options)
-                .map_err(|found| Failure::mistakes(found, input))?;
+        let wrong = |found| Failure::mistakes(found, input);
+        let (mut spec, report) = read_urdf(NAME, input.urdf(), &input.attributes.text()).map_err(wrong)?;
+        if let Wanted::Only(methods) = wanted {
+            let name =
+                |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
+            spec.options.outputs = Some(methods.iter().map(name).collect());
         }
-        Ok(Self { read, compiled })
+        let (model, compiled) = checked(&spec, graph).map_err(wrong)?;
+        // A file has no parameters.
+        let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
+        let tree = model.tree.map(|expr| evaluator.value(expr));
+        let coordinates = Coordinates::of(&spec, &model);
+        Ok(Self { spec, report, model, tree, coordinates, compiled })
     }
 
     /// Degrees of freedom.
     pub(crate) fn dof(&self) -> usize {
-        self.read.tree.dof()
+        self.tree.dof()
     }
 
     /// What a method returns, all entries in order, by rows; finite numbers.
     pub(crate) fn evaluate(&self, method: Method, state: &State) -> Result<Vec<f64>, Failure> {
         let name = method.name();
+        if self.plan(method).is_none() {
+            let problem = Problem::new(format!("this robot has no `{name}`: it would be too long"));
+            return Err(problem.help("name the outputs that are needed by `--only`").into());
+        }
         let values = self.compute(method, state).ok_or_else(|| {
             let problem = Problem::new(format!("`{name}` has no value: M(q) is not positive definite"));
             problem.help("correct the inertias, or choose another `q`")
@@ -151,7 +130,7 @@ impl<'g> Robot<'g> {
 
     /// What is too long for a straight line, by the plain recursion.
     fn plain(&self, method: Method, state: &State) -> Option<Vec<f64>> {
-        let (oracle, State { q, v, a, tau }) = (Oracle::new(&self.read.tree), state);
+        let (oracle, State { q, v, a, tau }) = (Oracle::new(&self.tree), state);
         Some(match method {
             Method::MassMatrix => oracle.mass_matrix(q).concat(),
             Method::InverseMassMatrix => {
@@ -161,6 +140,7 @@ impl<'g> Robot<'g> {
             }
             Method::PassiveForces => oracle.passive_forces(q, v),
             Method::ElasticEnergy => vec![oracle.elastic_energy(q)],
+            Method::TotalMass => vec![total_mass(&self.tree)],
             Method::CenterOfMass => oracle.center_of_mass(q),
             Method::CenterOfMassJacobian => oracle.center_of_mass_jacobian(q).concat(),
             Method::CentroidalMomentum => oracle.centroidal_momentum(q, v),
@@ -181,12 +161,32 @@ impl<'g> Robot<'g> {
                 let found = oracle.forward_dynamics_derivatives(q, v, tau)?;
                 [found.da_dq, found.da_dv, found.da_dtau].concat().concat()
             }
-            _ => return None,
+            Method::Pose(frame) => {
+                let pose = oracle.pose(frame, q);
+                [pose.rotation.0.concat(), pose.translation.0.to_vec()].concat()
+            }
+            Method::Jacobian(frame) => oracle.body_jacobian(frame, q).concat(),
+            Method::WorldJacobian(frame) => oracle.world_jacobian(frame, q).concat(),
+            Method::Velocity(frame) => oracle.velocity(frame, q, v),
+            Method::Acceleration(frame) => oracle.acceleration(frame, q, v, a),
+            Method::EquationsOfMotion
+            | Method::Regressor
+            | Method::InertialParameters
+            | Method::BaseRegressor
+            | Method::BaseParameters => return None,
         })
     }
 }
 
 impl State {
+    /// At rest and free of forces, with all coordinates zero but those of quaternions, which are no rotations.
+    pub(crate) fn neutral(robot: &Robot<'_>) -> Self {
+        let mut q = vec![0.0; robot.tree.coordinates()];
+        robot.tree.normalise(&mut q);
+        let zeros = vec![0.0; robot.dof()];
+        Self { q, v: zeros.clone(), a: zeros.clone(), tau: zeros }
+    }
+
     fn read(&self, symbol: Symbol) -> f64 {
         match symbol {
             // A file has no parameters.

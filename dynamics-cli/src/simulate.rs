@@ -4,18 +4,17 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use dynamics_codegen::mechanics::equations::Method;
-use dynamics_codegen::model::JointInfo;
-use dynamics_codegen::spec::JointKind;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
 use crate::input::InputArgs;
+use crate::motion::stepped;
 use crate::output::{failed, writer};
 use crate::progress::Progress;
-use crate::robot::{Read, Robot, State, Wanted};
+use crate::robot::{Robot, State, Wanted};
 use crate::state;
 
-/// Simulate a robot that nothing drives, as CSV: time, q, v and energies
+/// Simulate a robot that nothing drives, as CSV: time, coordinates, speeds and energies
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -30,11 +29,11 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SECONDS", value_parser = step, allow_hyphen_values = true)]
     step: f64,
 
-    /// Coordinates at the start, with commas between them; without it, zero, and nothing is turned
+    /// Coordinates at the start: all of them, `0.1,-0.2`, or some by their names, `hinge=0.1`; the others are neutral
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
-    /// Speeds at the start, with commas between them; without it, zero
+    /// Speeds at the start: all of them, or some by their names; the others are zero
     #[arg(long, allow_hyphen_values = true)]
     v: Option<String>,
 
@@ -48,11 +47,22 @@ pub(crate) struct Args {
 }
 
 const EXAMPLES: &str = "\
-The method is the classical one of Runge and Kutta, of fourth order, with a fixed step.
+The method is the classical one of Runge and Kutta, of fourth order, with a fixed step; ball and free joints move on
+their manifold, so that quaternions stay of unit length.
+
+Columns:
+  time                       s
+  q.NAME                     each coordinate: q.hinge; q.root_joint.x to .z and .qx to .qw of a free joint, .qx to .qw
+                             of a ball, .angle and .distance, .angle1 and .angle2, or .x, .y and .angle of others
+  v.NAME                     each speed: v.root_joint.vx to .vz and .wx to .wz of a free joint, .wx to .wz of a ball
+  kinetic, potential, elastic, total
+                             J: of motion, of gravity, of springs, and their sum
+  drift                      the total less that at the start: what dampers and friction took, and the method's error
 
 Examples:
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
-  dynamics simulate arm.urdf --time 1 --step 1e-4 --every 100";
+  dynamics simulate arm.urdf --time 1 --step 1e-4 --every 100
+  dynamics simulate dog.urdf --base free --time 1 --step 1e-3 --q root_joint.z=0.6,knee=-1.2 --v root_joint.wz=1";
 
 /// More steps cannot be counted exactly in doubles, nor waited for.
 const MOST_STEPS: f64 = (1_u64 << 53) as f64;
@@ -71,31 +81,32 @@ fn step(text: &str) -> Result<f64, String> {
     }
 }
 
+const METHODS: [Method; 4] =
+    [Method::ForwardDynamics, Method::KineticEnergy, Method::PotentialEnergy, Method::ElasticEnergy];
+
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let clock = Clock::of(args.time, args.step)?;
     let input = args.input.read()?;
     let graph = Graph::new();
-    let wanted = [Method::ForwardDynamics, Method::KineticEnergy, Method::PotentialEnergy];
-    let robot = Robot::of(&input, &graph, Wanted::Only(&wanted))?;
-    let model = &robot.read.model;
-    let mut state = state::at_rest(model);
-    for (name, argument, vector) in [("q", &args.q, &mut state.q), ("v", &args.v, &mut state.v)] {
-        if let Some(argument) = argument {
-            *vector = state::vector(name, argument, model)?;
-        }
-    }
+    let robot = Robot::of(&input, &graph, Wanted::Only(&METHODS))?;
+    let mut state = State::neutral(&robot);
+    state::override_by("q", &mut state.q, args.q.as_deref(), &robot.coordinates.q)?;
+    state::override_by("v", &mut state.v, args.v.as_deref(), &robot.coordinates.v)?;
+    state::check_quaternions(&robot, &state.q)?;
     let mut out = writer(args.output.as_deref(), &args.input.file)?;
     let mut write =
         |line: &str| out.write_all(line.as_bytes()).map_err(|error| failed(args.output.as_deref(), &error));
     write(&head(&robot))?;
-    write(&row(&robot, 0.0, &state)?)?;
+    let start = energies(&robot, &state)?[3];
+    let row = |time: f64, state: &State| row(&robot, time, state, start);
+    write(&row(0.0, &state)?)?;
     let progress = Progress::of("simulating");
     for k in 1..=clock.steps {
         let (before, now) = (clock.at(k - 1), clock.at(k));
         state = stepped(&robot, &state, now - before).map_err(|failure| lost(failure, now))?;
         if k % args.every == 0 || k == clock.steps {
-            write(&row(&robot, now, &state).map_err(|failure| lost(failure, now))?)?;
+            write(&row(now, &state).map_err(|failure| lost(failure, now))?)?;
         }
         progress.done(k as f64 / clock.steps as f64);
     }
@@ -130,84 +141,24 @@ impl Clock {
     }
 }
 
-/// The state after a step `h`, by the classical method of Runge and Kutta. Quaternions are made of unit length again
-/// after each step: in between they leave it by no more than the method is off.
-fn stepped(robot: &Robot<'_>, state: &State, h: f64) -> Result<State, Failure> {
-    let along = |x: &[f64], h: f64, rate: &[f64]| -> Vec<f64> {
-        x.iter().zip(rate).map(|(x, rate)| x + h * rate).collect()
-    };
-    let after = |h: f64, rate: &[f64], a: &[f64]| State {
-        q: along(&state.q, h, rate),
-        v: along(&state.v, h, a),
-        ..state.clone()
-    };
-    let tree = &robot.read.tree;
-    let rates = |state: &State| -> Result<(Vec<f64>, Vec<f64>), Failure> {
-        let a = robot.evaluate(Method::ForwardDynamics, state)?;
-        Ok((tree.configuration_rate(&state.q, &state.v), a))
-    };
-    let (v1, a1) = rates(state)?;
-    let (v2, a2) = rates(&after(0.5 * h, &v1, &a1))?;
-    let (v3, a3) = rates(&after(0.5 * h, &v2, &a2))?;
-    let (v4, a4) = rates(&after(h, &v3, &a3))?;
-    let mean = |[one, two, three, four]: [&[f64]; 4]| -> Vec<f64> {
-        let sum = |k: usize| one[k] + 2.0 * (two[k] + three[k]) + four[k];
-        (0..one.len()).map(|k| sum(k) / 6.0).collect()
-    };
-    let v = mean([&v1, &v2, &v3, &v4]);
-    let a = mean([&a1, &a2, &a3, &a4]);
-    let mut state = after(h, &v, &a);
-    tree.normalise(&mut state.q);
-    Ok(state)
-}
-
 /// Says when numbers got out of hand.
 fn lost(failure: Failure, time: f64) -> Failure {
-    let Failure::Wrong { mut problems, text } = failure else { return failure };
+    let Failure::Wrong(mut problems) = failure else { return failure };
     for problem in &mut problems {
         problem.title = format!("{}, {time:?} s after the start", problem.title);
         problem.help = Some("give a smaller `--step`, or another state at the start".to_owned());
     }
-    Failure::Wrong { problems, text }
+    Failure::Wrong(problems)
 }
 
 fn head(robot: &Robot<'_>) -> String {
-    let Read { spec, model, .. } = &robot.read;
-    let moving = spec.joints.iter().filter(|joint| joint.has_coordinates());
-    let joints: Vec<_> = model.joints.iter().zip(moving).map(|(info, joint)| (info, joint.kind)).collect();
-    let names = |prefix: &'static str, parts: fn(JointKind) -> &'static [&'static str]| {
-        let of_joint = move |(joint, kind): &(&JointInfo, JointKind)| {
-            let part = |part: &&str| quoted(&format!("{prefix}.{}{part}", joint.name));
-            parts(*kind).iter().map(part).collect::<Vec<_>>()
-        };
-        joints.iter().flat_map(of_joint).collect::<Vec<_>>()
+    let names = |prefix: &'static str, names: &[String]| -> Vec<String> {
+        names.iter().map(|name| quoted(&format!("{prefix}.{name}"))).collect()
     };
-    let energies = ["kinetic", "potential", "total"].map(str::to_owned).to_vec();
-    let cells = [vec!["time".to_owned()], names("q", coordinates), names("v", speeds), energies].concat();
-    cells.join(",") + "\n"
-}
-
-/// What the coordinates of a joint are called behind its name.
-fn coordinates(kind: JointKind) -> &'static [&'static str] {
-    match kind {
-        JointKind::Ball => &[".i", ".j", ".k", ".w"],
-        JointKind::Free => &[".x", ".y", ".z", ".i", ".j", ".k", ".w"],
-        _ => speeds(kind),
-    }
-}
-
-/// What its speeds are called.
-fn speeds(kind: JointKind) -> &'static [&'static str] {
-    match kind {
-        JointKind::Fixed => &[],
-        JointKind::Revolute | JointKind::Continuous | JointKind::Prismatic | JointKind::Helical => &[""],
-        JointKind::Cylindrical => &[".angle", ".distance"],
-        JointKind::Universal => &[".first", ".second"],
-        JointKind::Planar => &[".x", ".y", ".angle"],
-        JointKind::Translation => &[".x", ".y", ".z"],
-        JointKind::Ball => &[".wx", ".wy", ".wz"],
-        JointKind::Free => &[".x", ".y", ".z", ".wx", ".wy", ".wz"],
-    }
+    let energies = ["kinetic", "potential", "elastic", "total", "drift"].map(str::to_owned).to_vec();
+    let time = vec!["time".to_owned()];
+    [time, names("q", &robot.coordinates.q), names("v", &robot.coordinates.v), energies].concat().join(",")
+        + "\n"
 }
 
 /// A cell of CSV, RFC 4180.
@@ -215,10 +166,17 @@ fn quoted(text: &str) -> String {
     if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 
-fn row(robot: &Robot<'_>, time: f64, state: &State) -> Result<String, Failure> {
-    let kinetic = robot.evaluate(Method::KineticEnergy, state)?[0];
-    let potential = robot.evaluate(Method::PotentialEnergy, state)?[0];
-    let numbers = std::iter::once(&time).chain(&state.q).chain(&state.v);
-    let numbers = numbers.copied().chain([kinetic, potential, kinetic + potential]);
+/// Kinetic, potential, elastic, and their sum, J.
+fn energies(robot: &Robot<'_>, state: &State) -> Result<[f64; 4], Failure> {
+    let energy = |method| robot.evaluate(method, state).map(|value| value[0]);
+    let (kinetic, potential) = (energy(Method::KineticEnergy)?, energy(Method::PotentialEnergy)?);
+    let elastic = energy(Method::ElasticEnergy)?;
+    Ok([kinetic, potential, elastic, kinetic + potential + elastic])
+}
+
+fn row(robot: &Robot<'_>, time: f64, state: &State, start: f64) -> Result<String, Failure> {
+    let energies = energies(robot, state)?;
+    let numbers = std::iter::once(&time).chain(&state.q).chain(&state.v).copied();
+    let numbers = numbers.chain(energies).chain([energies[3] - start]);
     Ok(numbers.map(|number| format!("{number:?}")).collect::<Vec<_>>().join(",") + "\n")
 }

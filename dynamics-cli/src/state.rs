@@ -1,48 +1,81 @@
-//! The state that `--state` gives: a JSON object of vectors.
+//! The state that `--state`, `--q` and `--v` give: vectors, or some of their entries by name.
 
 use std::fmt;
-use std::ops::Range;
 use std::path::Path;
 
 use dynamics_codegen::diagnostics::did_you_mean;
-use dynamics_codegen::model::{JointInfo, Model};
-use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
 use crate::failure::{Failure, Problem, Spot};
 use crate::input::{bytes_of, name_of, shown};
-use crate::robot::State;
+use crate::robot::{Robot, State};
 
 const KEYS: [&str; 4] = ["q", "v", "a", "tau"];
-const EXAMPLE: &str = "write a JSON object, as in '{\"q\": [0.1, 0.2], \"v\": [1, 0]}'";
+const EXAMPLE: &str = "write a JSON object, as in '{\"q\": [0.1, 0.2], \"v\": {\"hinge\": 1}}'";
 
 /// The entries of an object, in order: a map would hide that a key is there twice.
-struct Entries(Vec<(String, Value)>);
+struct Entries<T>(Vec<(String, T)>);
 
-impl<'de> Deserialize<'de> for Entries {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OfObject;
-        impl<'de> Visitor<'de> for OfObject {
-            type Value = Entries;
+        struct OfObject<T>(std::marker::PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for OfObject<T> {
+            type Value = Entries<T>;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("an object of vectors")
             }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries, A::Error> {
-                let mut entries = vec![];
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Entries(entries))
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Entries<T>, A::Error> {
+                Ok(Entries(entries_of(map)?))
             }
         }
-        deserializer.deserialize_map(OfObject)
+        deserializer.deserialize_map(OfObject(std::marker::PhantomData))
     }
 }
 
-/// Reads a state: JSON, or `@` and the path of a file of JSON. What is not given is zero.
-pub(crate) fn read(argument: &str, robot: &Path, model: &Model<'_>) -> Result<State, Failure> {
+fn entries_of<'de, T: Deserialize<'de>, A: MapAccess<'de>>(mut map: A) -> Result<Vec<(String, T)>, A::Error> {
+    let mut entries = vec![];
+    while let Some(entry) = map.next_entry()? {
+        entries.push(entry);
+    }
+    Ok(entries)
+}
+
+/// A vector as given.
+enum Vector {
+    /// All entries, in order.
+    All(Vec<Value>),
+    /// Some, by their names.
+    Some(Vec<(String, Value)>),
+}
+
+impl<'de> Deserialize<'de> for Vector {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct OfEither;
+        impl<'de> Visitor<'de> for OfEither {
+            type Value = Vector;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a list of numbers, or an object of some by their names")
+            }
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vector, A::Error> {
+                let mut items = vec![];
+                while let Some(item) = list.next_element()? {
+                    items.push(item);
+                }
+                Ok(Vector::All(items))
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Vector, A::Error> {
+                Ok(Vector::Some(entries_of(map)?))
+            }
+        }
+        deserializer.deserialize_any(OfEither)
+    }
+}
+
+/// Reads a state: JSON, or `@` and the path of a file of JSON. What is not given is neutral.
+pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<State, Failure> {
     let (name, text) = match argument.strip_prefix('@') {
-        Some("-") if robot == Path::new("-") => {
+        Some("-") if file == Path::new("-") => {
             return Err(
                 Problem::new("both the robot and the state are to be read from standard input").into()
             );
@@ -53,16 +86,17 @@ pub(crate) fn read(argument: &str, robot: &Path, model: &Model<'_>) -> Result<St
         }
         None => ("--state".to_owned(), argument.to_owned()),
     };
-    let Entries(entries) = serde_json::from_str(&text).map_err(|error| not_json(&error, name, &text))?;
-    let mut state = at_rest(model);
+    let Entries(entries) =
+        serde_json::from_str::<Entries<Vector>>(&text).map_err(|error| not_json(&error, name, &text))?;
+    let mut state = State::neutral(robot);
     let mut seen: Vec<&str> = vec![];
-    for (key, value) in &entries {
-        let vector = match key.as_str() {
-            "q" => &mut state.q,
-            "v" => &mut state.v,
-            "a" => &mut state.a,
-            "tau" => &mut state.tau,
-            _ => return Err(unknown(key, model)),
+    for (key, vector) in &entries {
+        let (slot, names) = match key.as_str() {
+            "q" => (&mut state.q, &robot.coordinates.q),
+            "v" => (&mut state.v, &robot.coordinates.v),
+            "a" => (&mut state.a, &robot.coordinates.v),
+            "tau" => (&mut state.tau, &robot.coordinates.v),
+            _ => return Err(unknown_key(key)),
         };
         if seen.contains(&key.as_str()) {
             return Err(Problem::new(format!("the state has `{key}` twice"))
@@ -70,151 +104,145 @@ pub(crate) fn read(argument: &str, robot: &Path, model: &Model<'_>) -> Result<St
                 .into());
         }
         seen.push(key);
-        let numbers = value.as_array().and_then(|items| items.iter().map(Value::as_f64).collect());
-        let Some(numbers) = numbers else {
+        let no_number = || {
             let problem = Problem::new(format!("`{key}` is no list of numbers"));
-            return Err(problem.help(format!("give {}", wanted(Kind::of(key), model))).into());
+            Failure::from(problem.help(format!("give {}", wanted(names))))
         };
-        *vector = checked(key, numbers, model)?;
+        match vector {
+            Vector::All(items) => {
+                let numbers: Option<Vec<f64>> = items.iter().map(Value::as_f64).collect();
+                *slot = checked(key, numbers.ok_or_else(no_number)?, names)?;
+            }
+            Vector::Some(entries) => {
+                for (name, value) in entries {
+                    set(key, slot, name, value.as_f64().ok_or_else(no_number)?, names)?;
+                }
+            }
+        }
     }
+    check_quaternions(robot, &state.q)?;
     Ok(state)
 }
 
-/// The state in which all is zero, and nothing is turned.
-pub(crate) fn at_rest(model: &Model<'_>) -> State {
-    let mut q = vec![0.0; model.tree.coordinates()];
-    model.tree.quaternions().for_each(|at| q[at + 3] = 1.0);
-    let zeros = vec![0.0; model.tree.dof()];
-    State { q, v: zeros.clone(), a: zeros.clone(), tau: zeros }
-}
-
-/// What a vector is of: its length is that of all coordinates, or of all speeds.
-#[derive(Clone, Copy)]
-enum Kind {
-    Coordinates,
-    Speeds,
-}
-
-impl Kind {
-    /// That of the vector `q`, or of another one.
-    fn of(name: &str) -> Self {
-        if name == "q" { Self::Coordinates } else { Self::Speeds }
-    }
-
-    /// The entries that a joint has in such a vector.
-    fn range(self, joint: &JointInfo) -> Range<usize> {
-        match self {
-            Self::Coordinates => joint.q.clone(),
-            Self::Speeds => joint.v.clone(),
-        }
-    }
-
-    fn length(self, model: &Model<'_>) -> usize {
-        match self {
-            Self::Coordinates => model.tree.coordinates(),
-            Self::Speeds => model.tree.dof(),
-        }
-    }
-
-    /// As in "2 joints", or in "7 coordinates" where a joint has several.
-    fn counted(self, model: &Model<'_>) -> String {
-        let length = self.length(model);
-        let what = match self {
-            _ if model.joints.len() == length => "joint",
-            Self::Coordinates => "coordinate",
-            Self::Speeds => "speed",
-        };
-        format!("{length} {what}{}", if length == 1 { "" } else { "s" })
-    }
-}
-
-/// Reads a vector as on the command line: `0.1,-0.2`, in brackets or not.
-pub(crate) fn vector(name: &str, argument: &str, model: &Model<'_>) -> Result<Vec<f64>, Failure> {
-    let inner = argument.trim().trim_start_matches('[').trim_end_matches(']');
-    let parsed: Result<Vec<f64>, &str> =
-        inner.split(',').map(|word| word.trim().parse().map_err(|_| word.trim())).collect();
-    let numbers = parsed.map_err(|word| {
-        let problem = Problem::new(format!("`{}` in `--{name}` is no number", shown(word)));
-        problem.help(format!("give {}, with commas between them", wanted(Kind::of(name), model)))
-    })?;
-    checked(name, numbers, model)
-}
-
-/// As many numbers as there are coordinates, or speeds, and all finite; and quaternions are some.
-fn checked(name: &str, numbers: Vec<f64>, model: &Model<'_>) -> Result<Vec<f64>, Failure> {
-    let kind = Kind::of(name);
-    let joint_at = |k: usize| {
-        let joint = model.joints.iter().find(|joint| kind.range(joint).contains(&k));
-        joint.map_or("", |joint| &joint.name)
+/// Reads a vector as on the command line: `0.1,-0.2`, in brackets or not, or `hinge=-0.2` of some entries.
+pub(crate) fn override_by(
+    key: &str,
+    vector: &mut Vec<f64>,
+    argument: Option<&str>,
+    names: &[String],
+) -> Result<(), Failure> {
+    let Some(argument) = argument else { return Ok(()) };
+    let key = format!("--{key}");
+    let number = |word: &str| {
+        word.trim().parse::<f64>().map_err(|_| {
+            let problem = Problem::new(format!("`{}` in `{key}` is no number", shown(word.trim())));
+            let form = "give {}, with commas between them; or some by their names, as in `{}=0.1`";
+            let first = names.first().map_or("hinge", String::as_str);
+            Failure::from(problem.help(form.replacen("{}", &wanted(names), 1).replacen("{}", first, 1)))
+        })
     };
-    let problem = if numbers.len() != kind.length(model) {
-        let count = numbers.len();
-        let s = if count == 1 { "" } else { "s" };
-        Problem::new(format!("`{name}` has {count} number{s}, and the robot has {}", kind.counted(model)))
-    } else if let Some(k) = numbers.iter().position(|number| !number.is_finite()) {
-        Problem::new(format!("`{name}` of the joint `{}` is {}", joint_at(k), numbers[k]))
-    } else if let Some((joint, length)) = stretched(kind, &numbers, model) {
-        let message = format!("the quaternion of the joint `{}` has the length {length}", joint_at(joint));
-        return Err(Problem::new(message)
-            .help("give i, j, k, w such that their squares add up to one")
+    let inner = argument.trim().trim_start_matches('[').trim_end_matches(']');
+    if !inner.contains('=') {
+        let numbers: Result<Vec<f64>, Failure> = inner.split(',').map(number).collect();
+        *vector = checked(&key, numbers?, names)?;
+        return Ok(());
+    }
+    for word in inner.split(',') {
+        // Names may have the sign, numbers have not.
+        let (name, value) = word.rsplit_once('=').unwrap_or(("", word));
+        set(&key, vector, name.trim(), number(value)?, names)?;
+    }
+    Ok(())
+}
+
+/// Sets the entry of a name.
+fn set(key: &str, vector: &mut [f64], name: &str, value: f64, names: &[String]) -> Result<(), Failure> {
+    if !value.is_finite() {
+        return Err(Problem::new(format!("`{key}` of `{}` is {value}", shown(name)))
+            .help("give a finite number")
             .into());
+    }
+    let slot = names.iter().position(|known| known == name).and_then(|at| vector.get_mut(at));
+    let Some(slot) = slot else {
+        let problem = Problem::new(format!("`{key}` has no entry `{}`", shown(name)));
+        let help = match did_you_mean(name, names.iter().map(String::as_str)) {
+            Some(meant) => format!("did you mean `{meant}`?"),
+            None => format!("give {}", wanted(names)),
+        };
+        return Err(problem.help(help).into());
+    };
+    *slot = value;
+    Ok(())
+}
+
+/// As many numbers as there are names, and all finite.
+fn checked(key: &str, numbers: Vec<f64>, names: &[String]) -> Result<Vec<f64>, Failure> {
+    let (count, needed) = (numbers.len(), names.len());
+    let problem = if count != needed {
+        let s = if count == 1 { "" } else { "s" };
+        Problem::new(format!("`{key}` has {count} number{s}, and needs {needed}"))
+    } else if let Some((number, name)) = numbers.iter().zip(names).find(|(number, _)| !number.is_finite()) {
+        Problem::new(format!("`{key}` of `{name}` is {number}"))
     } else {
         return Ok(numbers);
     };
-    Err(problem.help(format!("give {}", wanted(kind, model))).into())
+    Err(problem.help(format!("give {}", wanted(names))).into())
 }
 
-/// The first quaternion that is not of unit length, as far as one can write it.
-fn stretched(kind: Kind, numbers: &[f64], model: &Model<'_>) -> Option<(usize, f64)> {
-    let lengths = model.tree.quaternions().map(|at| {
-        let squares = numbers.iter().skip(at).take(4).map(|x| x * x);
-        (at, squares.sum::<f64>().sqrt())
-    });
-    match kind {
-        Kind::Coordinates => lengths.into_iter().find(|(_, length)| (length - 1.0).abs() > 1e-6),
-        Kind::Speeds => None,
+/// How far the square of a quaternion's length may be from 1: that of the run time.
+const UNIT: f64 = 1e-6;
+
+/// Quaternions of unit length, as the run time's `check_configuration` has them.
+pub(crate) fn check_quaternions(robot: &Robot<'_>, q: &[f64]) -> Result<(), Failure> {
+    for at in robot.tree.quaternions() {
+        let quaternion = &q[at..at + 4];
+        let norm = quaternion.iter().fold(0.0, |norm: f64, x| norm.hypot(*x));
+        if (norm * norm - 1.0).abs() <= UNIT {
+            continue;
+        }
+        let joint = robot.model.joints.iter().find(|joint| joint.q.contains(&at));
+        let name = joint.map_or("", |joint| &joint.name);
+        let last = at + 3;
+        let title =
+            format!("the quaternion of `{name}`, q[{at}] to q[{last}], has the norm {norm}, and not 1");
+        let unit: Vec<String> = quaternion.iter().map(|x| format!("{:?}", x / norm + 0.0)).collect();
+        let help = match norm > 0.0 && norm.is_finite() {
+            true => format!("divided by its norm it is {}", unit.join(", ")),
+            false => "no rotation is 0, 0, 0, 1".to_owned(),
+        };
+        return Err(Problem::new(title).help(help).into());
     }
+    Ok(())
 }
 
-fn unknown(key: &str, model: &Model<'_>) -> Failure {
+fn unknown_key(key: &str) -> Failure {
     let problem = Problem::new(format!("the state has an unknown key `{}`", shown(key)));
     let help = match did_you_mean(key, KEYS) {
         Some(meant) => format!("did you mean `{meant}`?"),
-        None => {
-            let [q, v] = [Kind::Coordinates, Kind::Speeds].map(|kind| wanted(kind, model));
-            if q == v {
-                format!("give `q`, `v`, `a` or `tau`, each of them {v}")
-            } else {
-                format!("give `q`, {q}, or `v`, `a` or `tau`, each of them {v}")
-            }
-        }
+        None => "give `q`, `v`, `a` or `tau`".to_owned(),
     };
     problem.help(help).into()
 }
 
-/// As in "2 finite numbers, of the joints slider, hinge".
-fn wanted(kind: Kind, model: &Model<'_>) -> String {
-    const SHOWN: usize = 16;
-    let name = |joint: &JointInfo| match kind.range(joint).len() {
-        1 => joint.name.clone(),
-        several => format!("{} ({several})", joint.name),
-    };
-    let names: Vec<String> = model.joints.iter().map(name).take(SHOWN).collect();
-    let (count, joints, names) = (kind.length(model), model.joints.len(), names.join(", "));
-    let more = if joints > SHOWN { format!(" and {} more", joints - SHOWN) } else { String::new() };
-    let (s, of) = (if count == 1 { "" } else { "s" }, if joints == 1 { "joint" } else { "joints" });
-    format!("{count} finite number{s}, of the {of} {names}{more}")
+/// As in "2 finite numbers, of slider, hinge".
+fn wanted(names: &[String]) -> String {
+    const SHOWN: usize = 19; // a quadruped's
+    let count = names.len();
+    let shown = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
+    let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+    let s = if count == 1 { "" } else { "s" };
+    format!("{count} finite number{s}, of {shown}{more}")
 }
 
 fn not_json(error: &serde_json::Error, file: String, text: &str) -> Failure {
     let message = error.to_string();
     let place = format!(" at line {} column {}", error.line(), error.column());
     let message = message.strip_suffix(&place).unwrap_or(&message);
-    let spot = Spot { file, line: error.line().max(1), column: column_of(text, error) };
+    let spot = Spot::in_text(file, text, error.line().max(1), column_of(text, error));
     let mut problem =
         Problem::new(format!("the state is no JSON object of vectors: {message}")).help(EXAMPLE);
     problem.spot = Some(spot);
-    Failure::Wrong { problems: vec![problem], text: text.to_owned() }
+    problem.into()
 }
 
 /// The column in characters, where the parser counts bytes.

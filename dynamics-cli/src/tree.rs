@@ -35,7 +35,7 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
         let mass = masses.get(child).map_or(String::new(), |mass| format!("  {mass} kg"));
         let (name, kind) = (&joint.name, joint.kind.name());
         let carrier = match (coordinates.get(child), &joint.keys.locked, &joint.keys.mimic) {
-            (Some(q), ..) => format!("{name} ({kind}, {}) ─ ", entries(q)),
+            (Some(q), ..) => format!("{name} ({kind}, {}) ─ ", entries("q", q)),
             (None, Some(locked), _) => format!("{name} ({kind}, locked at {}) ─ ", locked.short_text()),
             (None, None, Some(leader)) => format!("{name} ({kind}, follows {leader}) ─ "),
             _ if child == root => String::new(),
@@ -69,7 +69,8 @@ fn branches<'s>(
 
 /// The mass as written, unless it is zero.
 fn mass(body: &dynamics_codegen::spec::BodySpec) -> Option<f64> {
-    match &body.mass.as_ref()?.kind {
+    let of_solid = body.solid.as_ref().map(|solid| &*solid.mass);
+    match &body.mass.as_ref().or(of_solid)?.kind {
         FormulaKind::Number(value, _) => Some(value.to_f64()).filter(|mass| *mass != 0.0),
         _ => None,
     }
@@ -87,6 +88,7 @@ fn coordinates(spec: &RobotSpec) -> BTreeMap<&str, Range<usize>> {
 }
 
 /// As `q[3]`, or `q[0..7]` of several.
-pub(crate) fn entries(q: &Range<usize>) -> String {
-    if q.len() == 1 { format!("q[{}]", q.start) } else { format!("q[{}..{}]", q.start, q.end) }
+pub(crate) fn entries(letter: &str, range: &Range<usize>) -> String {
+    let Range { start, end } = range;
+    if range.len() == 1 { format!("{letter}[{start}]") } else { format!("{letter}[{start}..{end}]") }
 }

@@ -9,12 +9,16 @@ mod eval;
 mod generate;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
+#[path = "cli/readme.rs"]
+mod readme;
 #[path = "cli/simulate.rs"]
 mod simulate;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+
+use serde_json::Value;
 
 /// The published robots, and what they need to be accepted.
 const ROBOTS: &[(&str, &[&str])] = &[
@@ -24,6 +28,26 @@ const ROBOTS: &[(&str, &[&str])] = &[
     ("scara", &[]),
     ("puma560", &["--allow", "nonphysical_inertia"]),
     ("iiwa14", &[]),
+    ("hyq", &["--base", "free"]),
+    ("puma560_armature", PUMA_ROTORS),
+];
+
+/// The PUMA with what a URDF has no word for.
+const PUMA_ROTORS: &[&str] = &[
+    "--allow",
+    "nonphysical_inertia",
+    "--joint",
+    "joint1, armature = 0.784029968642",
+    "--joint",
+    "joint2, armature = 2.324814845",
+    "--joint",
+    "joint3, armature = 0.576873331938",
+    "--joint",
+    "joint4, armature = 0.19079062612368",
+    "--joint",
+    "joint5, armature = 0.17070629165700002",
+    "--joint",
+    "joint6, rotor = 0.04851612641700001, gear = 2",
 ];
 
 /// What a command did.
@@ -83,9 +107,42 @@ fn model(robot: &str) -> String {
     format!("{robot}/model.urdf")
 }
 
-fn reference(robot: &str) -> serde_json::Value {
+/// The numbers of Pinocchio. Its joints are in the order of their names, and are put into the file's here.
+fn reference(robot: &str) -> Value {
     let text = std::fs::read_to_string(robots().join(robot).join("reference.json")).unwrap();
-    serde_json::from_str(&text).unwrap()
+    let file = std::fs::read_to_string(robots().join(model(robot))).unwrap();
+    let mut reference: Value = serde_json::from_str(&text).unwrap();
+    let place = |joint: &Value| file.find(&format!("<joint name={}", joint["name"]));
+    reference["joints"].as_array_mut().unwrap().sort_by_key(place);
+    let joints = reference["joints"].as_array().unwrap().clone();
+    let order = |index: &str, of_free: usize| -> Vec<usize> {
+        let entries = joints.iter().flat_map(|joint| {
+            let first = joint[index].as_u64().unwrap() as usize;
+            first..first + if joint["type"] == "JointModelFreeFlyer" { of_free } else { 1 }
+        });
+        entries.collect()
+    };
+    let of_v = order("idx_v", 6);
+    // Angles are two numbers there in the index of a continuous joint, and one in a state.
+    let is_free = reference["states"][0]["q"].as_array().unwrap().len() > of_v.len();
+    let of_q = if is_free { order("idx_q", 7) } else { of_v.clone() };
+    let permuted =
+        |items: &Value, order: &[usize]| -> Vec<Value> { order.iter().map(|&k| items[k].clone()).collect() };
+    for state in reference["states"].as_array_mut().unwrap() {
+        state["q"] = permuted(&state["q"], &of_q).into();
+        for vector in ["v", "a", "tau", "tau2", "g", "Cv", "a_fd"] {
+            state[vector] = permuted(&state[vector], &of_v).into();
+        }
+        for matrix in ["M", "C", "Minv", "dtau_dq", "dtau_dv", "da_dq", "da_dv"] {
+            let rows = permuted(&state[matrix], &of_v);
+            state[matrix] = rows.iter().map(|row| permuted(row, &of_v)).collect::<Vec<_>>().into();
+        }
+        for matrix in ["J_local", "J_lwa"] {
+            let rows = state["ee"][matrix].as_array().unwrap().clone();
+            state["ee"][matrix] = rows.iter().map(|row| permuted(row, &of_v)).collect::<Vec<_>>().into();
+        }
+    }
+    reference
 }
 
 /// An empty folder of a test's own.

@@ -52,17 +52,69 @@ fn every_command_refuses_what_is_no_robot() {
     }
 }
 
+/// What the command line says beside a file is read as attributes are, and its mistakes are shown in it.
+#[test]
+fn mistakes_in_options_are_shown_in_them() {
+    let options = ["check", &model("hyq"), "--base", "free"];
+    let both = [
+        &options[..],
+        &["--joint", "lf_kfe_joint, damping = -0.1", "--joint", "rf_kfe_joint, rotor = 2kg"],
+        &["--body", "trunk, mass = 3rad", "--gravity", "[0, 0, 9.81N]"],
+    ];
+    insta::assert_snapshot!(dynamics(&both.concat()).failed(1));
+    let mut said = String::new();
+    for extra in [
+        ["--joint", "knee, damping = 1"],
+        ["--joint", "lf_kfe_joint, dampin = 1"],
+        ["--joint", "lf_kfe_joint damping = 1"],
+        ["--joint", "lf_kfe_joint, damping = (1"],
+        ["--joint", "lf_kfe_joint)] #[body(a"],
+        ["--joint", "lf_kfe_joint, // a comment\n damping"],
+        ["--joint", "root_joint: fixed, world -> trunk"],
+        ["--body", ""],
+        ["--body", "ünknown, mass = 1"],
+        ["--gravity", "9.81"],
+    ] {
+        said += &dynamics(&[&options[..], &extra].concat()).failed(1);
+        said += "\n";
+    }
+    insta::assert_snapshot!(said);
+}
+
+#[test]
+fn a_quaternion_that_is_no_rotation_is_refused_with_its_norm() {
+    let hyq = model("hyq");
+    let eval = ["eval", &hyq, "--base", "free", "--only", "M", "--state"];
+    for (state, norm, help) in [
+        (r#"{"q": {"root_joint.qx": 1}}"#, "the norm 1.414213562373", "0.7071067811865475"),
+        (r#"{"q": {"root_joint.qw": 0}}"#, "the norm 0, and not 1", "no rotation is 0, 0, 0, 1"),
+        (r#"{"q": {"root_joint.qw": 1.000001}}"#, "the norm 1.000001", "0.0, 0.0, 0.0, 1.0"),
+    ] {
+        let complaint = dynamics(&[&eval[..], &[state]].concat()).failed(1);
+        assert!(complaint.contains("the quaternion of `root_joint`, q[3] to q[6]"), "{complaint}");
+        assert!(complaint.contains(norm) && complaint.contains(help), "{complaint}");
+    }
+    // What single precision keeps is good enough.
+    dynamics(&[&eval[..], &[r#"{"q": {"root_joint.qw": 1.0000004}}"#]].concat()).ok();
+    let simulate =
+        ["simulate", &hyq, "--base", "free", "--time", "1", "--step", "0.1", "--q", "root_joint.qy=1"];
+    assert!(dynamics(&simulate).failed(1).contains("has the norm 1.41"));
+}
+
 #[test]
 fn a_wrong_state_names_the_joints() {
     for (state, expected) in [
-        (r#"{"q": [1]}"#, "`q` has 1 number, and the robot has 2 joints"),
-        (r#"{"v": [1, 2, 3]}"#, "2 finite numbers, of the joints slider, hinge"),
+        (r#"{"q": [1]}"#, "`q` has 1 number, and needs 2"),
+        (r#"{"v": [1, 2, 3]}"#, "2 finite numbers, of slider, hinge"),
         (r#"{"q": [1, null]}"#, "`q` is no list of numbers"),
         (r#"{"q": [1, NaN]}"#, "--> --state:1:11"),
         (r#"{"q": [1, 1e999]}"#, "number out of range"),
         (r#"{"q": [1, 2], "q": [1, 2]}"#, "`q` twice"),
         (r#"{"tua": [1, 2]}"#, "did you mean `tau`?"),
-        (r#"{"speed": [1, 2]}"#, "the joints slider, hinge"),
+        (r#"{"speed": [1, 2]}"#, "give `q`, `v`, `a` or `tau`"),
+        (r#"{"q": {"hinge": "1"}}"#, "`q` is no list of numbers"),
+        (r#"{"v": {"hing": 1}}"#, "did you mean `hinge`?"),
+        (r#"{"v": 1}"#, "expected a list of numbers, or an object"),
         ("[1, 2]", "an object of vectors"),
         (r#"{"q": [1e200, 1e200], "v": [1e200, 1e200]}"#, "is not finite at this state"),
         ("@no/such.json", "no/such.json cannot be read"),
@@ -75,16 +127,12 @@ fn a_wrong_state_names_the_joints() {
 #[test]
 fn a_wrong_state_of_a_free_base_says_which_part() {
     for (state, expected) in [
-        (r#"{"q": [0, 0]}"#, "the robot has 9 coordinates"),
-        (r#"{"v": [0, 0]}"#, "8 finite numbers, of the joints root_joint (6), joint1, joint2"),
+        (r#"{"q": [0, 0]}"#, "`q` has 2 numbers, and needs 9"),
         (
-            r#"{"q": [0, 0, 0, 0, 0, 0, 2, 0, 0]}"#,
-            "the quaternion of the joint `root_joint` has the length 2",
+            r#"{"v": [0, 0]}"#,
+            "8 finite numbers, of root_joint.vx, root_joint.vy, root_joint.vz, root_joint.wx",
         ),
-        (
-            r#"{"speed": []}"#,
-            "give `q`, 9 finite numbers, of the joints root_joint (7), joint1, joint2, or `v`",
-        ),
+        (r#"{"q": [0, 0, 0, 0, 0, 0, 2, 0, 0]}"#, "q[3] to q[6], has the norm 2, and not 1"),
     ] {
         let complaint =
             dynamics(&["eval", &model("double_pendulum"), "--base", "free", "--state", state]).failed(1);
@@ -102,9 +150,12 @@ fn a_wrong_simulation_does_not_start() {
     }
     let usual = [&simulate[..], &["--step", "0.1", "--time", "1"]].concat();
     for (extra, expected) in [
-        (["--q", "1"], "the robot has 2 joints"),
+        (["--q", "1"], "`--q` has 1 number, and needs 2"),
         (["--v", "1,x"], "`x` in `--v` is no number"),
-        (["--q", "0,nan"], "of the joint `hinge` is NaN"),
+        (["--q", "0,nan"], "`--q` of `hinge` is NaN"),
+        (["--q", "hing=1"], "did you mean `hinge`?"),
+        (["--v", "hinge=x"], "`x` in `--v` is no number"),
+        (["--v", "hinge=inf"], "`--v` of `hinge` is inf"),
         (["-o", &cart], "it is the input"),
         (["-o", "no/such/folder.csv"], "cannot be written"),
     ] {
@@ -132,6 +183,8 @@ fn a_wrong_command_line_is_a_matter_of_its_own() {
         (&["check"], "<FILE>"),
         (&["check", &cart, "--allow", "all"], "nonphysical_inertia"),
         (&["check", &cart, "--snap", "maybe"], "on, off"),
+        (&["check", &cart, "--base", "loose"], "fixed, free"),
+        (&["eval", &cart, "--only", "M,dtau_dp"], "'dtau_dv'"),
         (&["generate", &cart], "--lang"),
         (&["generate", &cart, "--lang", "c"], "there is `rust`"),
         (&["generate", &cart, "--lang", "rust", "--name", "a b"], "no identifier"),

@@ -1,0 +1,64 @@
+//! What the compiler says of attributes of Rust, said of options.
+
+/// A text of the compiler, for the command line: `#[joint(…)]` is `--joint '…'`, `#[dynamics(snap = off)]` is
+/// `--snap off`.
+pub(crate) fn for_the_command_line(text: &str) -> String {
+    let mut said = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find("#[") {
+        let Some(length) = rest[start..].find(")]") else { break };
+        let (attribute, behind) = rest[start..].split_at(length + ")]".len());
+        said += &rest[..start];
+        said += &option(attribute).unwrap_or_else(|| attribute.to_owned());
+        rest = behind;
+    }
+    said += rest;
+    for (written, given) in [
+        ("`base = free`", "`--base free`"),
+        ("`base`", "`--base`"),
+        ("`gravity = [0, 0, -9.81]`", "`--gravity '[0, 0, -9.81]'`"),
+        (" beside the file", " on the command line"),
+        (" on the struct", " on the command line"),
+    ] {
+        said = said.replace(written, given);
+    }
+    said
+}
+
+/// The option that says what an attribute does.
+fn option(attribute: &str) -> Option<String> {
+    let inner = attribute.strip_prefix("#[")?.strip_suffix(")]")?;
+    match inner.split_once('(')? {
+        (helper @ ("joint" | "body"), text) => Some(format!("--{helper} '{text}'")),
+        ("dynamics", text) => match text.strip_suffix(')').and_then(|text| text.split_once('(')) {
+            Some((key, value)) => Some(format!("--{key} {value}")),
+            None => text.split_once(" = ").map(|(key, value)| format!("--{key} {value}")),
+        },
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::for_the_command_line;
+
+    #[test]
+    fn attributes_are_options() {
+        for (written, said) in [
+            ("add `#[dynamics(allow(nonphysical_inertia))]` now", "add `--allow nonphysical_inertia` now"),
+            ("`#[dynamics(snap = off)]`", "`--snap off`"),
+            (
+                "`#[joint(a, stiffness = 3)]` or `#[body(b, …)]`",
+                "`--joint 'a, stiffness = 3'` or `--body 'b, …'`",
+            ),
+            (
+                "write `#[joint(n: free, world -> a)]` instead of `base`",
+                "write `--joint 'n: free, world -> a'` instead of `--base`",
+            ),
+            ("described on the struct as well", "described on the command line as well"),
+            ("`#[derive(Dynamics)]` and #[", "`#[derive(Dynamics)]` and #["),
+        ] {
+            assert_eq!(for_the_command_line(written), said);
+        }
+    }
+}
