@@ -210,6 +210,7 @@ fn passive<'g>(joint: &JointSpec, values: &Values<'_, 'g>) -> Result<Passive<Exp
 
 /// The links in their order: the last of a joint has the body, and those before it have none.
 fn link_infos(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr<'_>>) -> Vec<LinkInfo> {
+    let moving = spec.joints.iter().zip(&topology.links).filter(|(_, links)| !links.is_empty());
     let of_joint = |(joint, links): (&JointSpec, &Range<usize>)| {
         let body = tree.frames.iter().position(|frame| frame.name == joint.child.text);
         let name = joint.name.text.clone();
@@ -221,7 +222,7 @@ fn link_infos(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr<'_>>) -> V
             acts: is_one_dof && link == first,
         })
     };
-    spec.joints.iter().zip(&topology.links).flat_map(of_joint).collect()
+    moving.flat_map(of_joint).collect()
 }
 
 /// The joints that have coordinates of their own.

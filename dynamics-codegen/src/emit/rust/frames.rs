@@ -36,8 +36,14 @@ impl Emitter<'_, '_> {
     pub(super) fn frames(&self, written: &[Written]) -> String {
         let mut text = String::new();
         let module = frames_module(&self.item.name);
-        for (k, (type_, frame)) in self.frame_types.iter().zip(&self.input.model.tree.frames).enumerate() {
-            let chosen: Vec<&Written> = written.iter().filter(|w| w.method.frame() == Some(k)).collect();
+        let frames = &self.input.model.tree.frames;
+        let mut of_frames: Vec<Vec<&Written>> = vec![vec![]; frames.len()];
+        for method in written {
+            if let Some(frame) = method.method.frame() {
+                of_frames[frame].push(method);
+            }
+        }
+        for ((type_, frame), chosen) in self.frame_types.iter().zip(frames).zip(of_frames) {
             if chosen.is_empty() {
                 continue;
             }
