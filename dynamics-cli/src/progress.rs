@@ -19,10 +19,11 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Begins to watch over the work that `what` names. Without a terminal, nothing is ever said.
+    /// Begins to watch over the work that `what` names. Without a terminal nothing is ever said, nor where a log is
+    /// kept of one, as continuous integration does, which sets `CI`.
     pub(crate) fn of(what: &str) -> Self {
         let permille = Arc::new(AtomicU32::new(0));
-        if !std::io::stderr().is_terminal() {
+        if !std::io::stderr().is_terminal() || std::env::var_os("CI").is_some() {
             return Self { permille, watcher: None };
         }
         let (sender, receiver) = channel::<()>();
