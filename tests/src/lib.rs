@@ -9,12 +9,18 @@ pub mod dual;
 pub mod random;
 pub mod reference;
 pub mod roads;
+mod frames;
 mod robot;
+pub mod space;
+mod specialised;
 pub mod zoo;
 
 pub use dual::Dual;
 pub use random::{Random, State};
-pub use robot::{Forms, Frames, Method, Robot, Run, Specialised, frame};
+pub use frames::{Frames, frame};
+pub use robot::{Axes, Forms, Method, Robot, Run};
+pub use space::{Part, Space};
+pub use specialised::Specialised;
 
 /// A matrix of any size.
 pub type Matrix<T = f64> = nalgebra::DMatrix<T>;

@@ -1,6 +1,6 @@
 //! Seeded random states, the same on every machine.
 
-use crate::Vector;
+use crate::{Space, Vector};
 
 /// The generator splitmix64 of S. Vigna.
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl Random {
 /// A robot in motion, and forces on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct State {
-    /// Coordinates, rad and m.
+    /// Coordinates, rad and m, and unit quaternions.
     pub q: Vector,
     /// Speeds.
     pub v: Vector,
@@ -45,11 +45,12 @@ pub struct State {
 }
 
 impl State {
-    /// `count` states of a robot of `n` joints: turned anywhere, and of the size of one.
-    pub fn many(name: &str, n: usize, count: usize) -> Vec<Self> {
+    /// `count` states of a robot: turned anywhere, and of the size of one.
+    pub fn many(name: &str, space: Space, count: usize) -> Vec<Self> {
         let mut random = Random::of(name);
+        let n = space.speeds();
         let mut state = || Self {
-            q: random.vector(n, 3.2),
+            q: space.normalised(random.vector(space.coordinates(), 3.2)),
             v: random.vector(n, 2.0),
             a: random.vector(n, 4.0),
             tau: random.vector(n, 8.0),

@@ -21,6 +21,21 @@ pub fn input(entry: &Entry) -> syn::DeriveInput {
     syn::parse_str(entry.source).unwrap_or_else(|error| panic!("{}: {error}", entry.name))
 }
 
+/// The code that the derive writes for a robot.
+///
+/// # Panics
+///
+/// If the compiler finds a mistake in the robot: the derive has compiled it.
+pub fn generated(entry: &Entry) -> String {
+    dynamics_codegen::generate_with(&input(entry), read)
+        .unwrap_or_else(|mistakes| panic!("{}: {}", entry.name, mistakes.into_text()))
+}
+
+/// Reads a file by its path from the root of this crate, as the derive does.
+fn read(path: &str) -> Result<Vec<u8>, String> {
+    std::fs::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).map_err(|error| error.to_string())
+}
+
 /// Runs `with` on the robot as the compiler sees it.
 ///
 /// # Panics
@@ -29,7 +44,12 @@ pub fn input(entry: &Entry) -> syn::DeriveInput {
 pub fn travel<R>(entry: &Entry, with: impl FnOnce(&Roads<'_>) -> R) -> R {
     let graph = Graph::new();
     let mut diags = Diagnostics::new();
-    let spec = spec::parse(&input(entry), &mut diags);
+    let mut spec = spec::parse(&input(entry), &mut diags);
+    if let Some(path) = spec.options.urdf.clone() {
+        let bytes = read(&path.text).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
+        let text = std::str::from_utf8(&bytes).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
+        spec::urdf::read(&mut spec, spec::urdf::Urdf { file: &path.text, text }, &mut diags);
+    }
     let model = model::build(&spec, &graph, &mut diags);
     let mistakes = diags.into_text();
     let model = model.unwrap_or_else(|| panic!("{}: {mistakes}", entry.name));
@@ -132,17 +152,14 @@ pub struct Motion {
 impl Lagrangian {
     /// Derives once, and evaluates at each state.
     pub fn at(&self, states: &[State]) -> Vec<Motion> {
-        let (graph, n) = (Graph::new(), self.tree.dof());
-        let [q, v, a] = [0, 1, 2].map(|block| symbols(n, block));
+        let (graph, coordinates, n) = (Graph::new(), self.tree.coordinates(), self.tree.dof());
+        let [q, v, a] = [0..coordinates, coordinates..coordinates + n, coordinates + n..coordinates + 2 * n]
+            .map(|range| range.map(|k| SymbolId(u32::try_from(k).expect("a small robot"))).collect::<Vec<_>>());
         let tree =
             self.tree.map(|x| Expr::from(Number::from_f64(x).expect("the robot's numbers are finite")));
         let derived = lagrange::derive(&graph, &tree, Coordinates { q: &q, v: &v, a: &a });
         states.iter().map(|state| evaluate(&graph, &derived, state)).collect()
     }
-}
-
-fn symbols(n: usize, block: usize) -> Vec<SymbolId> {
-    (0..n).map(|k| SymbolId(u32::try_from(block * n + k).expect("a small robot"))).collect()
 }
 
 fn evaluate<'g>(graph: &'g Graph, derived: &Lagrange<'g>, state: &State) -> Motion {

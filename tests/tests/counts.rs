@@ -2,15 +2,10 @@
 
 use std::fmt::Write as _;
 
-use dynamics_codegen::generate;
 use dynamics_core::{Cost, Costs};
-use dynamics_tests::roads::input;
+use dynamics_tests::roads::generated;
 use dynamics_tests::zoo::textbook::{cart_pole, pendulum, robo_judge};
 use dynamics_tests::zoo::{self, Entry};
-
-fn generated(entry: &Entry) -> String {
-    generate(&input(entry)).unwrap_or_else(|mistakes| panic!("{}: {}", entry.name, mistakes.into_text()))
-}
 
 type Column = (&'static str, fn(&Costs) -> Cost);
 
@@ -49,7 +44,7 @@ fn operations_and_lines_of_the_zoo() {
     }
     let _ = writeln!(table, "  lines");
     for entry in zoo::all() {
-        let mut line = format!("{:<22} {:>2}", entry.name, entry.n);
+        let mut line = format!("{:<22} {:>2}", entry.name, entry.space.speeds());
         for (_, cost) in COLUMNS {
             let _ = write!(line, "  {:<18}", cell(cost(&entry.costs)));
         }

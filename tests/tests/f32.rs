@@ -25,7 +25,7 @@ fn for_each_state(check: impl Fn(&str, &dyn Robot<f32>, Oracle<'_>, &State)) {
 }
 
 fn states(entry: &Entry) -> Vec<State> {
-    State::many(entry.name, entry.n, STATES).iter().map(State::in_single).collect()
+    entry.states(STATES).iter().map(State::in_single).collect()
 }
 
 fn single(x: &Vector) -> Vector<f32> {
@@ -93,7 +93,7 @@ fn frames_agree() {
             let pose = oracle.pose(k, q.as_slice());
             close("rotation", &rows(&R), pose.rotation.0.concat());
             close("translation", &double(p.as_slice()), pose.translation.0.to_vec());
-            let (body, world) = (robot.jacobian(k, &q32), robot.world_jacobian(k, &q32));
+            let (body, world) = (robot.jacobian(k, Axes::Own, &q32), robot.jacobian(k, Axes::World, &q32));
             close("J", &rows(&body), oracle.body_jacobian(k, q.as_slice()).concat());
             close("J in world axes", &rows(&world), oracle.world_jacobian(k, q.as_slice()).concat());
         }

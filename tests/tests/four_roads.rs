@@ -21,7 +21,7 @@ const LAGRANGE: f64 = 1e-11;
 
 fn for_each_robot(check: impl Fn(&Entry, &dyn Robot<f64>, &Roads<'_>, &[State])) {
     for (entry, Forms { robot, .. }) in zoo::in_double() {
-        let states = State::many(entry.name, entry.n, STATES);
+        let states = entry.states(STATES);
         travel(&entry, |roads| check(&entry, &*robot, roads, &states));
     }
 }
@@ -82,10 +82,10 @@ fn compiled_rust_computes_what_the_interpreted_programs_compute() {
             for frame in 0..entry.body_names.len() {
                 let (R, p) = robot.pose(frame, q);
                 close(Method::Pose(frame), &[rows(&R), p.as_slice().to_vec()].concat(), SAME_PROGRAM, 0.0);
-                close(Method::Jacobian(frame), &rows(&robot.jacobian(frame, q)), SAME_PROGRAM, 1.0);
+                close(Method::Jacobian(frame), &rows(&robot.jacobian(frame, Axes::Own, q)), SAME_PROGRAM, 1.0);
                 close(
                     Method::WorldJacobian(frame),
-                    &rows(&robot.world_jacobian(frame, q)),
+                    &rows(&robot.jacobian(frame, Axes::World, q)),
                     SAME_PROGRAM,
                     1.0,
                 );
@@ -198,7 +198,7 @@ fn frames_of_compiled_rust_are_those_of_the_plain_recursion() {
                 let pose = oracle.pose(k, q.as_slice());
                 close("rotation", &rows(&R), pose.rotation.0.concat());
                 close("translation", p.as_slice(), pose.translation.0.to_vec());
-                let (body, world) = (robot.jacobian(k, q), robot.world_jacobian(k, q));
+                let (body, world) = (robot.jacobian(k, Axes::Own, q), robot.jacobian(k, Axes::World, q));
                 close("J", &rows(&body), oracle.body_jacobian(k, q.as_slice()).concat());
                 close("J in world axes", &rows(&world), oracle.world_jacobian(k, q.as_slice()).concat());
             }

@@ -13,7 +13,7 @@ const DUAL: f64 = 1e-11;
 
 fn for_each_state(check: impl Fn(&str, &dyn Robot<f64>, &State)) {
     for (entry, Forms { robot, .. }) in zoo::in_double() {
-        for state in State::many(entry.name, entry.n, STATES) {
+        for state in entry.states(STATES) {
             check(entry.name, &*robot, &state);
         }
     }
@@ -25,7 +25,7 @@ fn for_each_dual_state(check: impl Fn(&Entry, &dyn Robot<f64>, &dyn Robot<Dual>,
     for mut entry in zoo::all() {
         let (Some(double), Some(dual)) = (entry.double.take(), entry.dual.take()) else { continue };
         count += 1;
-        for state in State::many(entry.name, entry.n, STATES) {
+        for state in entry.states(STATES) {
             check(&entry, &*double.robot, &*dual.robot, &state);
         }
     }
@@ -293,9 +293,9 @@ fn jacobians_are_the_velocities_of_poses() {
             let body = [(&R_T * &p_dot).as_slice(), &axis_of(&(&R_T * &R_dot))].concat();
             let world = [p_dot.as_slice(), &axis_of(&(R_dot * R_T))].concat();
             let name = entry.name;
-            let found = robot.jacobian(k, q) * v;
+            let found = robot.jacobian(k, Axes::Own, q) * v;
             assert_close!(found.as_slice(), body, ROUNDING, floor = v.amax(), "{name}: velocity of {frame}");
-            let found = robot.world_jacobian(k, q) * v;
+            let found = robot.jacobian(k, Axes::World, q) * v;
             assert_close!(
                 found.as_slice(),
                 world,
@@ -343,7 +343,7 @@ fn bundles_equal_their_parts() {
 #[test]
 fn prepared_companions_compute_the_same_bits() {
     for (entry, Forms { robot, prepared }) in zoo::in_double() {
-        for State { q, v, a, tau } in State::many(entry.name, entry.n, 4) {
+        for State { q, v, a, tau } in entry.states(4) {
             let name = entry.name;
             assert_eq!(robot.equations_of_motion(&q, &v), prepared.equations_of_motion(&q, &v), "{name}");
             assert_eq!(robot.mass_matrix(&q), prepared.mass_matrix(&q), "{name}");
@@ -365,8 +365,8 @@ fn prepared_companions_compute_the_same_bits() {
             assert_eq!(robot.frame_names(), prepared.frame_names(), "{name}");
             for frame in 0..entry.body_names.len() {
                 assert_eq!(robot.pose(frame, &q), prepared.pose(frame, &q), "{name}");
-                assert_eq!(robot.jacobian(frame, &q), prepared.jacobian(frame, &q), "{name}");
-                assert_eq!(robot.world_jacobian(frame, &q), prepared.world_jacobian(frame, &q), "{name}");
+                assert_eq!(robot.jacobian(frame, Axes::Own, &q), prepared.jacobian(frame, Axes::Own, &q), "{name}");
+                assert_eq!(robot.jacobian(frame, Axes::World, &q), prepared.jacobian(frame, Axes::World, &q), "{name}");
             }
         }
     }
@@ -392,7 +392,7 @@ fn linearisation_is_made_of_the_derivatives() {
 #[test]
 fn what_is_not_finite_comes_out_as_such_and_never_panics() {
     for (entry, Forms { robot, .. }) in zoo::in_double() {
-        let State { q, v, tau, .. } = &State::many(entry.name, entry.n, 1)[0];
+        let State { q, v, tau, .. } = &entry.states(1)[0];
         assert!(robot.try_forward_dynamics(q, v, tau).is_ok(), "{}", entry.name);
         for bad in [f64::NAN, f64::INFINITY] {
             let broken = Vector::from_element(entry.n, bad);

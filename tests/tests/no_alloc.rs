@@ -26,7 +26,7 @@ fn nothing_at_run_time_touches_the_heap() {
     for mut entry in zoo::all() {
         let name = entry.name;
         // At rest under small forces, so that the light wrists stay in the finite.
-        let State { q, v, a, .. } = &State::many(name, entry.n, 1)[0];
+        let State { q, v, a, .. } = &entry.states(1)[0];
         let (v, a) = (v * 1e-3, a * 1e-3);
         if let Some(Forms { robot, prepared }) = entry.double.take() {
             let state = [q.as_slice(), v.as_slice(), a.as_slice()];

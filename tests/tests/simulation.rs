@@ -20,7 +20,7 @@ fn drift(robot: &dyn Robot<f64>, q: &Vector, v: &Vector, step: f64, seconds: f64
 
 /// The state from which each robot starts: anywhere, at moderate speed.
 fn start(entry: &Entry) -> (Vector, Vector) {
-    let State { q, v, .. } = State::many(entry.name, entry.n, 1).swap_remove(0);
+    let State { q, v, .. } = entry.states(1).swap_remove(0);
     (q, v * 0.5)
 }
 

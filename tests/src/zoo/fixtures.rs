@@ -23,7 +23,7 @@ pub fn all() -> Vec<Entry> {
 }
 
 robot! {
-    lift = Lift<f64> { payload: 12.5 }, [1, 2], [Cabin];
+    lift = Lift<f64> { payload: 12.5 }, [1], [Cabin];
     /// One joint that slides along an oblique axis.
     #[joint(rail: prismatic([3, 0, 4]), world -> cabin, limits = [-10cm, 3m], velocity = 1.5, effort = 2000N)]
     #[body(cabin, mass = payload + 800kg, com = [0.1, 20mm, 0.7], inertia = diag(300, 310, 120))]
@@ -31,7 +31,7 @@ robot! {
 }
 
 robot! {
-    single_precision = SinglePrecision<f32> { m: 0.75, l: 0.25, r: 0.125 }, [3, 6], [Upper, Lower, Finger];
+    single_precision = SinglePrecision<f32> { m: 0.75, l: 0.25, r: 0.125 }, [3], [Upper, Lower, Finger];
     /// Fields of `f32`, as on a microcontroller. The values are exact in single precision.
     #[joint(yaw: revolute(z), world -> upper)]
     #[body(upper, mass = m, com = [0, 0, l / 2], inertia = diag(m * l * l / 12, m * l * l / 12, m * r * r / 2))]
@@ -47,7 +47,7 @@ robot! {
         m00: 1.0, s0: 0.3, q0: 0.4, k0: 0.31, k1: 0.3, tau: 0.25, c0: 0.1, e0: 0.2, v0: 0.15, m: 0.7, r: 0.05, robot: 0.12,
         a: 0.04, q: 0.05, v: 0.06, g: 9.0
     },
-    [2, 4], [PoseFrame, StateFrame];
+    [2], [PoseFrame, StateFrame];
     /// Fields, joints and bodies with the names that generated code would like to use itself.
     #[dynamics(gravity = [0, -g, 0])]
     #[joint(q: revolute(x), world -> pose)]
@@ -61,7 +61,7 @@ robot! {
 }
 
 robot! {
-    two_on_one_world = TwoOnOneWorld, [3, 6], [Left, Right, RightHand];
+    two_on_one_world = TwoOnOneWorld, [3], [Left, Right, RightHand];
     /// Two arms that have nothing in common but the world: M falls into blocks.
     #[dynamics(gravity = [1.5, -2, -9.6])]
     #[joint(left_joint: revolute(y), world -> left, at = [0, 0.4, 0], rpy = [0.3, -0.2, 1.1])]
@@ -74,7 +74,7 @@ robot! {
 }
 
 robot! {
-    welded = Welded<T> { tool: 0.6, reach: 0.15 }, [3, 6],
+    welded = Welded<T> { tool: 0.6, reach: 0.15 }, [3],
     [Foot, Turret, Motor, Beam, Bare, Wrist, Gripper, Camera];
     /// Welds with masses on the world and on links, welds on welds, and massless bodies that turn in between.
     #[joint(bolted: fixed, world -> foot, at = [0.2, 0.1, 0.3], rpy = [0.1, 0.2, 0.3])]
@@ -97,7 +97,7 @@ robot! {
 }
 
 robot! {
-    screws = Screws, [4, 8], [Base, Slide, Arm, Hand];
+    screws = Screws, [4], [Base, Slide, Arm, Hand];
     /// Joints as lines in space, one of them prismatic in the middle.
     #[joint(turn: revolute, world -> base, screw([0.2, -0.1, 1], [0.1, 0.05, 0]))]
     #[body(base, mass = 3, com = [0.1, 0, 0.2], inertia = tensor(0.06, 0.003, 0.01, 0.05, -0.004, 0.04))]
@@ -112,7 +112,7 @@ robot! {
 }
 
 robot! {
-    distal = Distal<f64> { a1: 0.35, d2: 0.12, m: 2.4, g: 9.81, lean: 0.3, alpha2: -1.2 }, [4, 8],
+    distal = Distal<f64> { a1: 0.35, d2: 0.12, m: 2.4, g: 9.81, lean: 0.3, alpha2: -1.2 }, [4],
     [First, Second, Third, Fourth, Plate];
     /// Denavit and Hartenberg's distal frames, with fields for lengths and angles; the third joint slides.
     #[dynamics(gravity = [0, g * sin(lean), -g * cos(lean)])]
@@ -129,7 +129,7 @@ robot! {
 }
 
 robot! {
-    proximal = Proximal<T> { a: 0.25, d: 0.1, offset: 0.35, alpha: 0.8, m: 1.9 }, [4, 8], [L1, L2, L3, L4];
+    proximal = Proximal<T> { a: 0.25, d: 0.1, offset: 0.35, alpha: 0.8, m: 1.9 }, [4], [L1, L2, L3, L4];
     /// Modified Denavit–Hartenberg parameters, with fields for lengths, angles and an offset.
     #[joint(j1: revolute, world -> l1, mdh(0, 0, d * 4, 0))]
     #[body(l1, mass = m, com = [0.02, d, 0.03], inertia = diag(0.02, 0.03, 0.025))]
@@ -143,7 +143,7 @@ robot! {
 }
 
 robot! {
-    skewed = Skewed, [5, 10], [A, B, C, D, E, Tip];
+    skewed = Skewed, [5], [A, B, C, D, E, Tip];
     /// A chain in which nothing is aligned with anything, prismatic in the middle.
     #[joint(ja: revolute([1, 2, -0.5]), world -> a, at = [0.1, -0.2, 0.3], rpy = [0.4, -0.3, 0.9])]
     #[body(a, mass = 2.2, com = [0.05, -0.1, 0.15], inertia = tensor(0.05, 0.008, -0.006, 0.06, 0.004, 0.04))]
@@ -161,7 +161,7 @@ robot! {
 }
 
 robot! {
-    unsnapped = Unsnapped, [3, 6], [Link1, Link2, Link3];
+    unsnapped = Unsnapped, [3], [Link1, Link2, Link3];
     /// Right angles written in eleven digits, and taken at their word.
     #[dynamics(snap = off)]
     #[joint(joint1: revolute(z), world -> link1, at = [0, 0, 0.3], rpy = [1.57079632679, 0, 0])]
@@ -174,7 +174,7 @@ robot! {
 }
 
 robot! {
-    torso = Torso<T> { hip: 0.5, upper: 0.3, lower: 0.25, m: 1.2 }, [8, 16],
+    torso = Torso<T> { hip: 0.5, upper: 0.3, lower: 0.25, m: 1.2 }, [8],
     [Trunk, Head, LeftUpper, LeftLower, LeftHand, RightUpper, RightLower, RightHand];
     /// A turning trunk with a head and two arms of unequal build, their lengths and masses fields.
     #[joint(waist: revolute(z), world -> trunk)]
@@ -198,7 +198,7 @@ robot! {
 }
 
 robot! {
-    tree_of_nine = TreeOfNine, [9, 18], [Trunk, A1, A2, A3, B1, B2, C1, C2, C3];
+    tree_of_nine = TreeOfNine, [9], [Trunk, A1, A2, A3, B1, B2, C1, C2, C3];
     /// A prismatic trunk and three arms of different lengths, one of them on another.
     #[joint(trunk_up: prismatic(z), world -> trunk, rpy = [0.05, -0.1, 0])]
     #[body(trunk, mass = 8, com = [0.02, 0.01, 0.3], inertia = tensor(0.4, 0.01, 0.02, 0.5, -0.01, 0.3))]
@@ -222,7 +222,7 @@ robot! {
 }
 
 robot! {
-    snake = Snake<T> { l: 0.2, m: 0.9, tail: 0.3 }, [11, 22], [S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11];
+    snake = Snake<T> { l: 0.2, m: 0.9, tail: 0.3 }, [11], [S1, S2, S3, S4, S5, S6, S7, S8, S9, S10, S11];
     /// One long chain, where other methods become the cheapest: a slide, a massless link, and fields on the way.
     #[joint(j1: revolute(z), world -> s1)]
     #[body(s1, mass = m, com = [l / 2, 0.01, 0], inertia = diag(0.001, 0.003, 0.0035))]

@@ -17,7 +17,7 @@ pub fn all() -> Vec<Entry> {
 }
 
 robot! {
-    puma560_by_dh = Puma560ByDh, [6, 12],
+    puma560_by_dh = Puma560ByDh, [6],
     [Link1, Link2, Link3, Link4, Link5, Link6];
     /// PUMA 560 by Denavit and Hartenberg's parameters, centres and moments in the distal frames: B. Armstrong,
     /// O. Khatib, J. Burdick 1986, as collected by P. Corke, B. Armstrong-Hélouvry 1994.
@@ -38,7 +38,7 @@ robot! {
 }
 
 robot! {
-    puma560 = Puma560, [6, 12],
+    puma560 = Puma560, [6],
     [Link1, Link2, Link3, Link4, Link5, Link6, Tool];
     /// PUMA 560 by the numbers of `puma560/model.urdf`.
     ///
@@ -69,7 +69,7 @@ robot! {
 }
 
 robot! {
-    iiwa14 = Iiwa14, [7, 14],
+    iiwa14 = Iiwa14, [7],
     [IiwaLink0, IiwaLink1, IiwaLink2, IiwaLink3, IiwaLink4, IiwaLink5, IiwaLink6, IiwaLink7, IiwaLinkEe];
     /// KUKA's LBR iiwa 14 by the numbers of `iiwa14/model.urdf`; its foot is mass at rest.
     #[joint(iiwa_base_joint: fixed, world -> iiwa_link_0)]
@@ -101,7 +101,7 @@ robot! {
 }
 
 robot! {
-    scara = Scara, [4, 8],
+    scara = Scara, [4],
     [Link1, Link2, Link3, Link4, Tool];
     /// A SCARA with the kinematics of Adept's Cobra 600, by `scara/model.urdf`.
     #[joint(joint1: revolute(z), world -> link1, limits = [-1.8325957145940461, 1.8325957145940461])]
@@ -120,7 +120,7 @@ robot! {
 }
 
 robot! {
-    reference_cart_pole = ReferenceCartPole, [2, 4],
+    reference_cart_pole = ReferenceCartPole, [2],
     [Cart, Pole, Tip];
     /// The cart-pole of `cartpole/model.urdf`.
     #[joint(slider: prismatic(x), world -> cart, limits = [-2, 2])]
@@ -133,7 +133,7 @@ robot! {
 }
 
 robot! {
-    planar_2dof = Planar2Dof, [2, 4],
+    planar_2dof = Planar2Dof, [2],
     [BaseLink, Link1, Link2];
     /// The double pendulum of `double_pendulum/model.urdf`; its base is mass at rest.
     #[joint(base: fixed, world -> base_link)]
@@ -149,7 +149,7 @@ robot! {
 }
 
 robot! {
-    planar_2dof_continuous = Planar2DofContinuous, [2, 4],
+    planar_2dof_continuous = Planar2DofContinuous, [2],
     [Link1, Link2];
     /// The double pendulum of `double_pendulum_continuous/model.urdf`: without limits.
     #[joint(joint1: continuous(x), world -> link1, at = [0.0060872, 0, 0.035])]

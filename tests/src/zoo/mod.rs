@@ -6,7 +6,7 @@ pub mod textbook;
 
 use dynamics_core::Costs;
 
-use crate::{Dual, Forms};
+use crate::{Dual, Forms, Space, State};
 
 /// A robot of the zoo.
 pub struct Entry {
@@ -16,8 +16,8 @@ pub struct Entry {
     pub source: &'static str,
     /// The fields with their values here.
     pub parameters: &'static [(&'static str, f64)],
-    /// The number of joints that move.
-    pub n: usize,
+    /// Where its configuration is.
+    pub space: Space,
     /// What its methods cost.
     pub costs: Costs,
     /// Its joints.
@@ -30,6 +30,13 @@ pub struct Entry {
     pub single: Option<Forms<f32>>,
     /// Over numbers of the tests' own; only robots that leave the scalar open.
     pub dual: Option<Forms<Dual>>,
+}
+
+impl Entry {
+    /// Random states, the same in every test.
+    pub fn states(&self, count: usize) -> Vec<State> {
+        State::many(self.name, self.space, count)
+    }
 }
 
 /// All robots, small ones first.
@@ -47,59 +54,71 @@ pub fn in_double() -> impl Iterator<Item = (Entry, Forms<f64>)> {
 
 /// Declares a robot in a module of its own: derives it, keeps its text, gives it values, and enters it.
 ///
-/// `module = Struct<T> { field: value, … }, [joints, states], frames [Frame, …];` and then the struct as a user
-/// writes it, without the derive. Instead of `<T>`, `<f64>` and `<f32>` for fields of one type, and nothing for a
-/// unit struct.
+/// `module = Struct<T> { field: value, … }, [parts], [Frame, …];` and then the struct as a user writes it, without the
+/// derive. Instead of `<T>`, `<f64>` and `<f32>` for fields of one type; a unit struct has nothing, or `as f64` if it is
+/// so large that one scalar will do. The parts are those of the configuration, in order: `free`, `ball`, or the number
+/// of joints of one degree of freedom.
 macro_rules! robot {
-    ($module:ident = $name:ident<T> { $($field:ident: $value:expr),* $(,)? }, $sizes:tt, $frames:tt; $($item:tt)*) => {
-        crate::zoo::robot! { @module $module $name [$name<f64>] [$($field: $value),*] $sizes $frames [$($item)*]
+    ($module:ident = $name:ident<T> { $($field:ident: $value:expr),* $(,)? }, $parts:tt, $frames:tt; $($item:tt)*) => {
+        crate::zoo::robot! { @module $module $name [$name<f64>] [$($field: $value),*] $parts $frames [$($item)*]
             {
                 /// The robot with the values of the zoo.
                 pub fn robot<T: Scalar>() -> $name<T> {
                     $name { $($field: T::of($value)),* }
                 }
             }
-            [Some(crate::zoo::forms!($sizes $frames f64, robot::<f64>()))]
-            [Some(crate::zoo::forms!($sizes $frames f32, robot::<f32>()))]
-            [Some(crate::zoo::forms!($sizes $frames crate::Dual, robot::<crate::Dual>()))]
+            [Some(crate::zoo::forms!($frames [$name<f64>] f64, robot::<f64>()))]
+            [Some(crate::zoo::forms!($frames [$name<f64>] f32, robot::<f32>()))]
+            [Some(crate::zoo::forms!($frames [$name<f64>] crate::Dual, robot::<crate::Dual>()))]
         }
     };
-    ($module:ident = $name:ident<f64> { $($field:ident: $value:expr),* $(,)? }, $sizes:tt, $frames:tt; $($item:tt)*) => {
-        crate::zoo::robot! { @module $module $name [$name] [$($field: $value),*] $sizes $frames [$($item)*]
+    ($module:ident = $name:ident<f64> { $($field:ident: $value:expr),* $(,)? }, $parts:tt, $frames:tt; $($item:tt)*) => {
+        crate::zoo::robot! { @module $module $name [$name] [$($field: $value),*] $parts $frames [$($item)*]
             {
                 /// The robot with the values of the zoo.
                 pub fn robot() -> $name {
                     $name { $($field: $value),* }
                 }
             }
-            [Some(crate::zoo::forms!($sizes $frames f64, robot()))] [None] [None]
+            [Some(crate::zoo::forms!($frames [$name] f64, robot()))] [None] [None]
         }
     };
-    ($module:ident = $name:ident<f32> { $($field:ident: $value:expr),* $(,)? }, $sizes:tt, $frames:tt; $($item:tt)*) => {
-        crate::zoo::robot! { @module $module $name [$name] [$($field: $value),*] $sizes $frames [$($item)*]
+    ($module:ident = $name:ident<f32> { $($field:ident: $value:expr),* $(,)? }, $parts:tt, $frames:tt; $($item:tt)*) => {
+        crate::zoo::robot! { @module $module $name [$name] [$($field: $value),*] $parts $frames [$($item)*]
             {
                 /// The robot with the values of the zoo.
                 pub fn robot() -> $name {
                     $name { $($field: $value),* }
                 }
             }
-            [None] [Some(crate::zoo::forms!($sizes $frames f32, robot()))] [None]
+            [None] [Some(crate::zoo::forms!($frames [$name] f32, robot()))] [None]
         }
     };
-    ($module:ident = $name:ident, $sizes:tt, $frames:tt; $($item:tt)*) => {
-        crate::zoo::robot! { @module $module $name [$name] [] $sizes $frames [$($item)*]
+    ($module:ident = $name:ident, $parts:tt, $frames:tt; $($item:tt)*) => {
+        crate::zoo::robot! { @module $module $name [$name] [] $parts $frames [$($item)*]
             {
                 /// The robot.
                 pub fn robot() -> $name {
                     $name
                 }
             }
-            [Some(crate::zoo::forms!($sizes $frames f64, robot()))]
-            [Some(crate::zoo::forms!($sizes $frames f32, robot()))]
-            [Some(crate::zoo::forms!($sizes $frames crate::Dual, robot()))]
+            [Some(crate::zoo::forms!($frames [$name] f64, robot()))]
+            [Some(crate::zoo::forms!($frames [$name] f32, robot()))]
+            [Some(crate::zoo::forms!($frames [$name] crate::Dual, robot()))]
         }
     };
-    (@module $module:ident $name:ident [$concrete:ty] [$($field:ident: $value:expr),*] [$n:literal, $nx:literal]
+    ($module:ident = $name:ident as f64, $parts:tt, $frames:tt; $($item:tt)*) => {
+        crate::zoo::robot! { @module $module $name [$name] [] $parts $frames [$($item)*]
+            {
+                /// The robot.
+                pub fn robot() -> $name {
+                    $name
+                }
+            }
+            [Some(crate::zoo::forms!($frames [$name] f64, robot()))] [None] [None]
+        }
+    };
+    (@module $module:ident $name:ident [$concrete:ty] [$($field:ident: $value:expr),*] [$($part:tt),*]
         $frames:tt [$($item:tt)*] { $($robot:tt)* } [$double:expr] [$single:expr] [$dual:expr]
     ) => {
         #[doc = concat!("The robot [`", stringify!($name), "`](", stringify!($module), "::", stringify!($name), ").")]
@@ -120,7 +139,7 @@ macro_rules! robot {
                     name: <$concrete as Mechanism>::NAME,
                     source: SOURCE,
                     parameters: &[$((stringify!($field), $value as f64)),*],
-                    n: $n,
+                    space: crate::Space(&[$(crate::zoo::part!($part)),*]),
                     costs: <$concrete as Mechanism>::COST,
                     joint_names: <$concrete as Mechanism>::JOINT_NAMES,
                     body_names: <$concrete as Mechanism>::BODY_NAMES,
@@ -133,25 +152,52 @@ macro_rules! robot {
     };
 }
 
-/// The two forms of a robot over one scalar.
+macro_rules! part {
+    (free) => {
+        crate::Part::Free
+    };
+    (ball) => {
+        crate::Part::Ball
+    };
+    ($count:literal) => {
+        crate::Part::Lines($count)
+    };
+}
+
+/// The two forms of a robot over one scalar; the sizes are those of `$sized`.
 macro_rules! forms {
-    ($sizes:tt $frames:tt $scalar:ty, $robot:expr) => {{
+    ($frames:tt [$sized:ty] $scalar:ty, $robot:expr) => {{
         let robot = $robot;
         let prepared = robot.prepare().clone(); // of a robot without fields a reference to itself
         crate::Forms {
-            robot: Box::new(crate::zoo::specialised!($sizes $frames $scalar, robot)),
-            prepared: Box::new(crate::zoo::specialised!($sizes $frames $scalar, prepared)),
+            robot: Box::new(crate::zoo::specialised!($frames [$sized] $scalar, robot)),
+            prepared: Box::new(crate::zoo::specialised!($frames [$sized] $scalar, prepared)),
         }
     }};
 }
 
 macro_rules! specialised {
-    ([$n:literal, $nx:literal] [$($frame:ident),*] $scalar:ty, $robot:expr) => {
-        crate::Specialised::<_, $scalar, $n, $nx> {
+    ([$($frame:ident),*] [$sized:ty] $scalar:ty, $robot:expr) => {
+        crate::Specialised::<
+            _,
+            $scalar,
+            { <$sized as Mechanism>::NQ },
+            { <$sized as Mechanism>::NV },
+            { 2 * <$sized as Mechanism>::NV },
+            { <$sized as Mechanism>::NU },
+            { <$sized as Mechanism>::PARAMETER_NAMES.len() },
+            { <$sized as Mechanism>::BASE_PARAMETER_NAMES.len() },
+        > {
             robot: $robot,
-            frames: vec![$(crate::frame::<$frame, _, $scalar, $n>()),*],
+            frames: vec![$(crate::frame::<
+                $frame,
+                _,
+                $scalar,
+                { <$sized as Mechanism>::NQ },
+                { <$sized as Mechanism>::NV },
+            >()),*],
         }
     };
 }
 
-use {forms, robot, specialised};
+use {forms, part, robot, specialised};

@@ -23,7 +23,7 @@ pub fn all() -> Vec<Entry> {
 }
 
 robot! {
-    pendulum = Pendulum<T> { m: 1.3, l: 0.7, g: 9.81 }, [1, 2], [Bob];
+    pendulum = Pendulum<T> { m: 1.3, l: 0.7, g: 9.81 }, [1], [Bob];
     /// A point mass on a rod about x, hanging at zero.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(swing: revolute(x), world -> bob)]
@@ -32,7 +32,7 @@ robot! {
 }
 
 robot! {
-    cart_pole = CartPole<T> { mc: 1.5, mp: 0.2, l: 0.6, j: 0.024, g: 9.81 }, [2, 4], [Cart, Pole];
+    cart_pole = CartPole<T> { mc: 1.5, mp: 0.2, l: 0.6, j: 0.024, g: 9.81 }, [2], [Cart, Pole];
     /// A cart on x, and on it a pole that stands upright at zero; `l` leads to its centre, `j` is about it.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(slider: prismatic(x), world -> cart)]
@@ -44,7 +44,7 @@ robot! {
 
 robot! {
     acrobot = Acrobot<f64> { m1: 1.0, m2: 0.8, l1: 1.1, lc1: 0.5, lc2: 0.45, i1: 0.083, i2: 0.33 },
-    [2, 4], [Upper, Lower];
+    [2], [Upper, Lower];
     /// Two links that hang in the xz plane at zero, as in R. Tedrake's *Underactuated Robotics*; `i1` and `i2` are
     /// about the joints there, and about the centres here.
     #[joint(shoulder: continuous(-y), world -> upper)]
@@ -57,7 +57,7 @@ robot! {
 }
 
 robot! {
-    double_pendulum = DoublePendulum<T> { m1: 1.4, m2: 0.6, l1: 0.9, l2: 0.5, g: 9.81 }, [2, 4], [First, Second];
+    double_pendulum = DoublePendulum<T> { m1: 1.4, m2: 0.6, l1: 0.9, l2: 0.5, g: 9.81 }, [2], [First, Second];
     /// Two point masses on two rods; the second angle is relative to the first.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(upper: revolute(x), world -> first)]
@@ -68,7 +68,7 @@ robot! {
 }
 
 robot! {
-    planar_3r = Planar3R<T> { m1: 3.0, m2: 2.0, m3: 1.0, l1: 0.5, l2: 0.4, l3: 0.3 }, [3, 6],
+    planar_3r = Planar3R<T> { m1: 3.0, m2: 2.0, m3: 1.0, l1: 0.5, l2: 0.4, l3: 0.3 }, [3],
     [Link1, Link2, Link3, Tip];
     /// Three homogeneous rods in the vertical xy plane, stretched along x at zero.
     #[dynamics(gravity = [0, -9.81, 0])]
@@ -86,7 +86,7 @@ robot! {
     planar_scara = PlanarScara<f64> {
         m1: 4.0, m2: 3.0, m3: 1.5, m4: 0.5, l1: 0.4, l2: 0.3, r1: 0.2, r2: 0.15, i1: 0.06, i2: 0.04, i3: 0.01, i4: 0.002
     },
-    [4, 8], [Link1, Link2, Link3, Link4];
+    [4], [Link1, Link2, Link3, Link4];
     /// The SCARA of Murray, Li and Sastry, example 4.4 (its `I_zi`, links at distances `r`): three turning joints, and
     /// one that slides along z.
     #[joint(theta1: revolute(z), world -> link1)]
@@ -104,7 +104,7 @@ robot! {
 }
 
 robot! {
-    spherical_arm = SphericalArm<T> { m: 2.0, i1: 0.4, ix: 0.05, iy: 0.06, iz: 0.02, h: 0.4 }, [3, 6],
+    spherical_arm = SphericalArm<T> { m: 2.0, i1: 0.4, ix: 0.05, iy: 0.06, iz: 0.02, h: 0.4 }, [3],
     [Column, Yoke, Boom];
     /// The first three joints of a Stanford arm in spherical coordinates: azimuth, polar angle, distance.
     #[joint(azimuth: revolute(z), world -> column)]
@@ -117,7 +117,7 @@ robot! {
 }
 
 robot! {
-    stanford_arm = StanfordArm<T> { d2: 0.154, d6: 0.263 }, [6, 12],
+    stanford_arm = StanfordArm<T> { d2: 0.154, d6: 0.263 }, [6],
     [Link1, Link2, Link3, Link4, Link5, Link6];
     /// The Stanford arm by Denavit and Hartenberg (R. Paul 1981), with masses of the real one's order.
     #[joint(joint1: revolute, world -> link1, dh(0, -90deg, 0.412, 0))]
@@ -140,7 +140,7 @@ robot! {
         m1: 1.1, m2: 0.8, l1: 0.6, r0: 0.25, r1: 0.35, g: 9.81,
         ix1: 0.031, iy1: 0.032, iz1: 0.013, ix2: 0.021, iy2: 0.004, iz2: 0.022
     },
-    [2, 4], [Column, Arm];
+    [2], [Column, Arm];
     /// The two-link arm of the lecture: a turning column, and an arm that pitches on top of it.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(theta1: revolute(z), world -> column)]
@@ -154,7 +154,7 @@ robot! {
 }
 
 robot! {
-    point_mass = PointMass<T> { m: 1.7, g: 9.81 }, [3, 6], [AtX, AtXy, Point];
+    point_mass = PointMass<T> { m: 1.7, g: 9.81 }, [3], [AtX, AtXy, Point];
     /// A point mass that moves along x, y and z: problem 1 of the lecture.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(x: prismatic(x), world -> at_x)]
@@ -167,7 +167,7 @@ robot! {
 }
 
 robot! {
-    planar_body = PlanarBody<T> { m: 2.1, i: 0.3 }, [3, 6], [AtX, AtXy, Plate];
+    planar_body = PlanarBody<T> { m: 2.1, i: 0.3 }, [3], [AtX, AtXy, Plate];
     /// A rigid body in the horizontal plane: problem 2 of the lecture.
     #[joint(x: prismatic(x), world -> at_x)]
     #[body(at_x)]
@@ -179,7 +179,7 @@ robot! {
 }
 
 robot! {
-    tossed_box = TossedBox<T> { m: 1.5, l: 0.4, w: 0.3, h: 0.2, g: 9.81 }, [2, 4], [Hand, Parcel];
+    tossed_box = TossedBox<T> { m: 1.5, l: 0.4, w: 0.3, h: 0.2, g: 9.81 }, [2], [Hand, Parcel];
     /// A box tossed straight up with a spin about one axis: problems 3, 4 and 6 of the lecture.
     #[dynamics(gravity = [0, 0, -g])]
     #[joint(r: prismatic(z), world -> hand)]
@@ -190,7 +190,7 @@ robot! {
 }
 
 robot! {
-    any_toss = AnyToss<T> { m: 1.5, l: 0.4, w: 0.3, h: 0.2, g: 9.81 }, [6, 12],
+    any_toss = AnyToss<T> { m: 1.5, l: 0.4, w: 0.3, h: 0.2, g: 9.81 }, [6],
     [AtX, AtXy, AtXyz, Yawed, Pitched, Parcel];
     /// A box tossed in any direction with any spin, problem 6 of the lecture: its position, and yaw, pitch, roll.
     #[dynamics(gravity = [0, 0, -g])]
