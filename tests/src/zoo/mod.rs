@@ -1,7 +1,9 @@
 //! The zoo: every robot with its specification as text, its values, and its compiled forms.
 
+pub mod driven;
 pub mod fixtures;
 pub mod industrial;
+pub mod joints;
 pub mod textbook;
 
 use dynamics_core::Costs;
@@ -41,7 +43,7 @@ impl Entry {
 
 /// All robots, small ones first.
 pub fn all() -> Vec<Entry> {
-    [textbook::all(), fixtures::all(), industrial::all()].into_iter().flatten().collect()
+    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all()].into_iter().flatten().collect()
 }
 
 /// All robots with their forms in double precision.
