@@ -6,18 +6,18 @@
 
 pub mod close;
 pub mod dual;
+mod frames;
 pub mod random;
 pub mod reference;
 pub mod roads;
-mod frames;
 mod robot;
 pub mod space;
 mod specialised;
 pub mod zoo;
 
 pub use dual::Dual;
-pub use random::{Random, State};
 pub use frames::{Frames, frame};
+pub use random::{Random, State};
 pub use robot::{Axes, Forms, Method, Robot, Run};
 pub use space::{Part, Space};
 pub use specialised::Specialised;

@@ -154,7 +154,9 @@ impl Lagrangian {
     pub fn at(&self, states: &[State]) -> Vec<Motion> {
         let (graph, coordinates, n) = (Graph::new(), self.tree.coordinates(), self.tree.dof());
         let [q, v, a] = [0..coordinates, coordinates..coordinates + n, coordinates + n..coordinates + 2 * n]
-            .map(|range| range.map(|k| SymbolId(u32::try_from(k).expect("a small robot"))).collect::<Vec<_>>());
+            .map(|range| {
+                range.map(|k| SymbolId(u32::try_from(k).expect("a small robot"))).collect::<Vec<_>>()
+            });
         let tree =
             self.tree.map(|x| Expr::from(Number::from_f64(x).expect("the robot's numbers are finite")));
         let derived = lagrange::derive(&graph, &tree, Coordinates { q: &q, v: &v, a: &a });

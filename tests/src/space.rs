@@ -101,6 +101,27 @@ impl Space {
         }
         rate
     }
+
+    /// The bracket `[v, w]` of the directions in which constant speeds move the robot: of a ball's `v × w`, of a free
+    /// body's `(ω_v × l_w − ω_w × l_v, ω_v × ω_w)`, of lines zero.
+    pub fn bracket(self, v: &Vector, w: &Vector) -> Vector {
+        let mut bracket = Vector::zeros(v.len());
+        for (part, _, at) in self.parts() {
+            let angular = match part {
+                Part::Lines(_) => continue,
+                Part::Ball => at,
+                Part::Free => {
+                    let [l_v, l_w] = [v, w].map(|x| x.fixed_rows::<3>(at));
+                    let [o_v, o_w] = [v, w].map(|x| x.fixed_rows::<3>(at + 3));
+                    bracket.rows_mut(at, 3).copy_from(&(o_v.cross(&l_w) - o_w.cross(&l_v)));
+                    at + 3
+                }
+            };
+            let turned = v.fixed_rows::<3>(angular).cross(&w.fixed_rows::<3>(angular));
+            bracket.rows_mut(angular, 3).copy_from(&turned);
+        }
+        bracket
+    }
 }
 
 /// The quaternion from `at` on, whose order is nalgebra's.

@@ -153,7 +153,12 @@ fn poses_and_jacobians_of_the_tool_agree() {
             assert_close!(rotation.as_slice(), R.as_slice(), ROUNDING, "{name}: rotation");
             assert_close!(translation.as_slice(), p.as_slice(), ROUNDING, "{name}: translation");
             let (local, aligned) = (state.tool_jacobian("J_local"), state.tool_jacobian("J_lwa"));
-            assert_close!(robot.jacobian(frame, Axes::Own, &q).as_slice(), local.as_slice(), ROUNDING, "{name}: J");
+            assert_close!(
+                robot.jacobian(frame, Axes::Own, &q).as_slice(),
+                local.as_slice(),
+                ROUNDING,
+                "{name}: J"
+            );
             let world = robot.jacobian(frame, Axes::World, &q);
             assert_close!(world.as_slice(), aligned.as_slice(), ROUNDING, "{name}: J in world axes");
         }

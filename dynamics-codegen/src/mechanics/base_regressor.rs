@@ -1,7 +1,7 @@
 //! The parameters that joint forces tell apart, and the regressor of these: `τ = Y_b(q,v,a)·π_b`.
 //!
 //! Mass that may belong to a parent is given to it ([`regroup`](super::regroup)); what is left of a link has columns of
-//! its own. Beyond two axes that are not parallel these are independent. Nearer to the base, where less can move,
+//! its own. Behind two axes that are not parallel these are independent. Nearer to the base, where less can move,
 //! some are zero whatever the motion is, and are left out; and some are combinations of others, which take up their
 //! parameters. Combinations are found in numbers, at random states; what holds at one value of the robot's fields and
 //! not at another is not taken for one.
@@ -44,10 +44,12 @@ pub fn base_columns<'g>(
     independent(columns, symbols)
 }
 
-/// Whether a link moves so little that its parameters may be entangled with others: unless it, or what carries it,
-/// turns about a point or about two axes that are not parallel. Where joints follow others all links are bound.
-fn is_bound<S: Scalar>(tree: &NormalTree<S>, link: usize) -> bool {
-    let mut path: Vec<usize> = tree.path_to_base(link).collect();
+/// Whether a link moves so little that its parameters may be entangled with others: unless it turns about a point, or
+/// what carries it does, or does so about two axes that are not parallel. The link at the second of these is bound yet:
+/// where the axes are at right angles its rotor acts as moments of it and of the first link do. Where joints follow
+/// others all links are bound.
+fn is_bound<S: Scalar>(tree: &NormalTree<S>, last: usize) -> bool {
+    let mut path: Vec<usize> = tree.path_to_base(last).collect();
     path.reverse();
     let mut shared = tree.columns.iter().map(|column| column.speed).collect::<Vec<_>>();
     shared.sort_unstable();
@@ -68,7 +70,7 @@ fn is_bound<S: Scalar>(tree: &NormalTree<S>, link: usize) -> bool {
             Motion::Revolute => {
                 let axis = rotation.map(|rotation| rotation.column(2).0);
                 if axis.is_some_and(|[x, y, _]| !(x.is_zero() && y.is_zero())) {
-                    return false;
+                    return k == last;
                 }
                 since = Some(Matrix3::identity());
             }

@@ -26,6 +26,10 @@ pub struct Entry {
     pub joint_names: &'static [&'static str],
     /// Its bodies.
     pub body_names: &'static [&'static str],
+    /// Its inertial parameters.
+    pub parameter_names: &'static [&'static str],
+    /// Its base parameters.
+    pub base_parameter_names: &'static [&'static str],
     /// In double precision; not the robots whose fields are `f32`.
     pub double: Option<Forms<f64>>,
     /// In single precision; not the robots whose fields are `f64`.
@@ -43,7 +47,10 @@ impl Entry {
 
 /// All robots, small ones first.
 pub fn all() -> Vec<Entry> {
-    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all()].into_iter().flatten().collect()
+    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all()]
+        .into_iter()
+        .flatten()
+        .collect()
 }
 
 /// All robots with their forms in double precision.
@@ -145,6 +152,8 @@ macro_rules! robot {
                     costs: <$concrete as Mechanism>::COST,
                     joint_names: <$concrete as Mechanism>::JOINT_NAMES,
                     body_names: <$concrete as Mechanism>::BODY_NAMES,
+                    parameter_names: <$concrete as Mechanism>::PARAMETER_NAMES,
+                    base_parameter_names: <$concrete as Mechanism>::BASE_PARAMETER_NAMES,
                     double: $double,
                     single: $single,
                     dual: $dual,
