@@ -7,7 +7,7 @@ use dynamics_core::prelude::*;
 use dynamics_tests::close::{ROUNDING, largest};
 use dynamics_tests::roads::travel;
 use dynamics_tests::zoo::Entry;
-use dynamics_tests::{State, Vector, assert_close};
+use dynamics_tests::{Part, Space, State, Vector, assert_close};
 
 const N: usize = 52;
 
@@ -26,16 +26,18 @@ fn for_each_state(check: impl Fn(Oracle<'_>, &State, f64)) {
         name: "Chain",
         source: SOURCE,
         parameters: &[],
-        n: N,
+        space: Space(&[Part::Lines(N)]),
         costs: Chain::COST,
         joint_names: Chain::JOINT_NAMES,
         body_names: Chain::BODY_NAMES,
+        parameter_names: Chain::PARAMETER_NAMES,
+        base_parameter_names: Chain::BASE_PARAMETER_NAMES,
         double: None,
         single: None,
         dual: None,
     };
     travel(&entry, |roads| {
-        for state in State::many("Chain", N, 3) {
+        for state in entry.states(3) {
             let force = largest(&roads.oracle().mass_matrix(state.q.as_slice()).concat());
             check(roads.oracle(), &state, force);
         }
