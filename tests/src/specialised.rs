@@ -297,3 +297,29 @@ where
     let state::State { q, v } = *simulation.state();
     Ok(Run { energies, q: vector(q), v: vector(v) })
 }
+
+/// A compiled robot over a scalar with these frames; the sizes are those of the type `$sized`.
+#[macro_export]
+macro_rules! specialised {
+    ([$($frame:path),*] [$sized:ty] $scalar:ty, $robot:expr) => {
+        $crate::Specialised::<
+            _,
+            $scalar,
+            { <$sized as dynamics_core::Mechanism>::NQ },
+            { <$sized as dynamics_core::Mechanism>::NV },
+            { 2 * <$sized as dynamics_core::Mechanism>::NV },
+            { <$sized as dynamics_core::Mechanism>::NU },
+            { <$sized as dynamics_core::Mechanism>::PARAMETER_NAMES.len() },
+            { <$sized as dynamics_core::Mechanism>::BASE_PARAMETER_NAMES.len() },
+        > {
+            robot: $robot,
+            frames: vec![$($crate::frame::<
+                $frame,
+                _,
+                $scalar,
+                { <$sized as dynamics_core::Mechanism>::NQ },
+                { <$sized as dynamics_core::Mechanism>::NV },
+            >()),*],
+        }
+    };
+}

@@ -1,17 +1,26 @@
 //! The constants of robots: sizes, names, limits.
 
 use dynamics_core::{JointLimits, Mechanism};
+use dynamics_tests::roads::travel;
 use dynamics_tests::zoo;
 use dynamics_tests::zoo::fixtures::{lift, torso};
-use dynamics_tests::zoo::industrial::{iiwa14, puma560_by_dh};
+use dynamics_tests::zoo::industrial::{hyq, iiwa14, loaded_scara, puma560_by_dh};
+use dynamics_tests::zoo::joints::{gripper, locked, two_free_bodies};
 
 #[test]
 fn sizes_and_names_are_those_of_the_specification() {
     for entry in zoo::all() {
-        assert_eq!(entry.joint_names.len(), entry.n, "{}", entry.name);
+        travel(&entry, |roads| {
+            let joints: Vec<&str> = roads.model.joints.iter().map(|joint| joint.name.as_str()).collect();
+            assert_eq!(entry.joint_names, joints, "{}", entry.name);
+            let sizes = (roads.tree.coordinates(), roads.tree.dof());
+            assert_eq!((entry.space.coordinates(), entry.space.speeds()), sizes, "{}", entry.name);
+        });
         let words: Vec<&str> = entry.source.split(|c: char| !c.is_alphanumeric()).collect();
         assert!(words.windows(2).any(|pair| pair == ["struct", entry.name]), "{}", entry.name);
     }
+    assert_eq!((hyq::Hyq::NQ, hyq::Hyq::NV, hyq::Hyq::NU), (19, 18, 12));
+    assert_eq!(hyq::Hyq::JOINT_NAMES[..2], ["root_joint", "lf_haa_joint"]);
     assert_eq!((iiwa14::Iiwa14::NQ, iiwa14::Iiwa14::NV, iiwa14::Iiwa14::NU), (7, 7, 7));
     assert_eq!(iiwa14::Iiwa14::JOINT_NAMES[6], "iiwa_joint_7");
     assert_eq!(iiwa14::Iiwa14::BODY_NAMES[8], "iiwa_link_ee");
@@ -41,6 +50,22 @@ fn limits_are_in_the_units_of_the_specification() {
     assert_eq!((shoulder.lower, shoulder.upper), (-110_f64.to_radians(), 110_f64.to_radians()));
     assert_eq!(shoulder.effort, f64::INFINITY);
     assert!(torso::Torso::<f64>::LIMITS.iter().all(|limits| *limits == JointLimits::NONE));
+}
+
+/// A joint that follows another, or is locked, has no coordinate; one of several degrees of freedom has one name and a
+/// set of limits for each of its speeds.
+#[test]
+fn names_and_limits_are_those_of_coordinates() {
+    type Gripper = gripper::Gripper<f64>;
+    assert_eq!(Gripper::JOINT_NAMES, ["roll", "knuckle", "wag"]);
+    assert_eq!(locked::Locked::<f64>::JOINT_NAMES, ["hip", "ankle"]);
+    type TwoFreeBodies = two_free_bodies::TwoFreeBodies<f64>;
+    assert_eq!(TwoFreeBodies::JOINT_NAMES, ["flight", "flap", "fall"]);
+    assert_eq!((TwoFreeBodies::NQ, TwoFreeBodies::NV, TwoFreeBodies::NU), (15, 13, 7));
+    assert_eq!(TwoFreeBodies::LIMITS.len(), 13);
+    type LoadedScara = loaded_scara::LoadedScara<f64>;
+    assert_eq!(LoadedScara::JOINT_NAMES, ["joint1", "joint2", "joint3"]);
+    assert_eq!((LoadedScara::LIMITS[2].lower, LoadedScara::LIMITS[2].upper), (0.0, 0.21));
 }
 
 /// What depends on fields alone is done once: a robot without fields has nothing to prepare.

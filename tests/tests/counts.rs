@@ -1,6 +1,7 @@
 //! The table everybody looks at: what each robot of the zoo costs. And the generated code itself, of small robots.
 
 use std::fmt::Write as _;
+use std::sync::OnceLock;
 
 use dynamics_core::{Cost, Costs};
 use dynamics_tests::roads::generated;
@@ -9,8 +10,9 @@ use dynamics_tests::zoo::{self, Entry};
 
 type Column = (&'static str, fn(&Costs) -> Cost);
 
-const COLUMNS: [Column; 11] = [
+const EQUATIONS: [Column; 12] = [
     ("M", |costs| costs.mass_matrix),
+    ("1/M", |costs| costs.inverse_mass_matrix),
     ("C", |costs| costs.coriolis_matrix),
     ("G", |costs| costs.gravity_forces),
     ("h", |costs| costs.bias_forces),
@@ -21,6 +23,18 @@ const COLUMNS: [Column; 11] = [
     ("dID", |costs| costs.inverse_dynamics_derivatives),
     ("dFD", |costs| costs.forward_dynamics_derivatives),
     ("prepare", |costs| costs.prepare),
+];
+
+const WHOLE: [Column; 9] = [
+    ("passive", |costs| costs.passive_forces),
+    ("T", |costs| costs.kinetic_energy),
+    ("V", |costs| costs.potential_energy),
+    ("c", |costs| costs.center_of_mass),
+    ("J of c", |costs| costs.center_of_mass_jacobian),
+    ("A", |costs| costs.centroidal_momentum_matrix),
+    ("A v", |costs| costs.centroidal_momentum),
+    ("Y", |costs| costs.regressor),
+    ("Y base", |costs| costs.base_regressor),
 ];
 
 /// `193*183+1/7~`: multiplications, additions, divisions and roots if there are some, sines with their cosines.
@@ -35,28 +49,55 @@ fn cell(cost: Cost) -> String {
     if cost == Cost::ZERO { "-".to_owned() } else { text }
 }
 
+/// The costs of every robot, with what `last` says of it at the end of its line; columns as wide as they must be.
+fn table(columns: &[Column], (heading, last): (&str, fn(&Entry) -> String)) -> String {
+    let names = columns.iter().map(|(name, _)| (*name).to_owned());
+    let head = ["robot", "n"].map(str::to_owned).into_iter().chain(names).chain([heading.to_owned()]);
+    let mut lines: Vec<Vec<String>> = vec![head.collect()];
+    lines.extend(zoo::all().iter().map(|entry| {
+        let first = [entry.name.to_owned(), entry.space.speeds().to_string()];
+        let costs = columns.iter().map(|(_, cost)| cell(cost(&entry.costs)));
+        first.into_iter().chain(costs).chain([last(entry)]).collect()
+    }));
+    let width = |k: usize| lines.iter().map(|line| line[k].chars().count()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns.len() + 3).map(width).collect();
+    let mut table = String::new();
+    for line in &lines {
+        let cells: Vec<String> =
+            line.iter().zip(&widths).map(|(cell, &width)| format!("{cell:<width$}")).collect();
+        let _ = writeln!(table, "{}", cells.join("  ").trim_end());
+    }
+    table
+}
+
+/// The code of every robot, generated once.
+fn zoo_generated() -> &'static [String] {
+    static TEXTS: OnceLock<Vec<String>> = OnceLock::new();
+    TEXTS.get_or_init(|| zoo::all().iter().map(generated).collect())
+}
+
 /// A change in a rule of the compiler shows up here: better or worse, for which robot, by how much.
 #[test]
 fn operations_and_lines_of_the_zoo() {
-    let mut table = format!("{:<22} {:>2}", "robot", "n");
-    for (name, _) in COLUMNS {
-        let _ = write!(table, "  {name:<18}");
-    }
-    let _ = writeln!(table, "  lines");
-    for entry in zoo::all() {
-        let mut line = format!("{:<22} {:>2}", entry.name, entry.space.speeds());
-        for (_, cost) in COLUMNS {
-            let _ = write!(line, "  {:<18}", cell(cost(&entry.costs)));
-        }
-        let _ = writeln!(table, "{line}  {:>5}", generated(&entry).lines().count());
-    }
-    insta::assert_snapshot!(table);
+    let lines = |entry: &Entry| {
+        let k = zoo::all().iter().position(|other| other.name == entry.name);
+        zoo_generated()[k.expect("it is in the zoo")].lines().count().to_string()
+    };
+    insta::assert_snapshot!(table(&EQUATIONS, ("lines", lines)));
+}
+
+/// The robot as a whole, and its parameters: how many there are, and how many can be told apart.
+#[test]
+fn operations_of_the_whole_and_of_parameters() {
+    let parameters =
+        |entry: &Entry| format!("{} of {}", entry.base_parameter_names.len(), entry.parameter_names.len());
+    insta::assert_snapshot!(table(&WHOLE, ("parameters", parameters)));
 }
 
 #[test]
 fn the_same_robot_gives_the_same_bytes() {
-    for entry in zoo::all() {
-        assert!(generated(&entry) == generated(&entry), "{} is generated in two ways", entry.name);
+    for (entry, text) in zoo::all().iter().zip(zoo_generated()) {
+        assert!(generated(entry) == *text, "{} is generated in two ways", entry.name);
     }
 }
 

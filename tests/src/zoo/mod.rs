@@ -181,34 +181,10 @@ macro_rules! forms {
         let robot = $robot;
         let prepared = robot.prepare().clone(); // of a robot without fields a reference to itself
         crate::Forms {
-            robot: Box::new(crate::zoo::specialised!($frames [$sized] $scalar, robot)),
-            prepared: Box::new(crate::zoo::specialised!($frames [$sized] $scalar, prepared)),
+            robot: Box::new(crate::specialised!($frames [$sized] $scalar, robot)),
+            prepared: Box::new(crate::specialised!($frames [$sized] $scalar, prepared)),
         }
     }};
 }
 
-macro_rules! specialised {
-    ([$($frame:ident),*] [$sized:ty] $scalar:ty, $robot:expr) => {
-        crate::Specialised::<
-            _,
-            $scalar,
-            { <$sized as Mechanism>::NQ },
-            { <$sized as Mechanism>::NV },
-            { 2 * <$sized as Mechanism>::NV },
-            { <$sized as Mechanism>::NU },
-            { <$sized as Mechanism>::PARAMETER_NAMES.len() },
-            { <$sized as Mechanism>::BASE_PARAMETER_NAMES.len() },
-        > {
-            robot: $robot,
-            frames: vec![$(crate::frame::<
-                $frame,
-                _,
-                $scalar,
-                { <$sized as Mechanism>::NQ },
-                { <$sized as Mechanism>::NV },
-            >()),*],
-        }
-    };
-}
-
-use {forms, part, robot, specialised};
+use {forms, part, robot};
