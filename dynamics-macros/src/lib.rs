@@ -159,7 +159,7 @@ use proc_macro::TokenStream;
 /// | `rest = p` | where the spring is slack | rad, m | 0 |
 /// | `armature = a` | `a·ṡ`, of what turns with the joint and is no body | kg·m², kg | 0 |
 /// | `rotor = i` | with `gear` instead of `armature`: the inertia of a motor about its shaft, `a = i·gear²` | kg·m² | |
-/// | `gear = n` | turns of the motor for one of the joint; radians for a metre, if prismatic | 1, rad/m | |
+/// | `gear = n` | turns of the motor for one of the joint; radians for a metre, if prismatic; with `rotor` | 1, rad/m | |
 ///
 /// ```
 /// # use dynamics_core::prelude::*;

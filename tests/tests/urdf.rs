@@ -195,7 +195,8 @@ fn generated_files_are_expansions_of_the_derive() {
         let path = format!("robots/{robot}/model.urdf");
         let text =
             std::fs::read_to_string(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).expect("it is there");
-        let written = dynamics_codegen::generate_urdf("Robot", Urdf { file: &path, text: &text }, options);
+        let attribute = format!("#[dynamics({options})]");
+        let written = dynamics_codegen::generate_urdf("Robot", Urdf { file: &path, text: &text }, &attribute);
         let written = written.unwrap_or_else(|mistakes| panic!("{robot}: {}", mistakes.into_text()));
         let item = format!("#[dynamics(urdf = \"{path}\", {options})] pub struct Robot;");
         let input = syn::parse_str(&item).expect("it is a struct");

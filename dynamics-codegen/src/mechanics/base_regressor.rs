@@ -28,7 +28,8 @@ pub fn base_columns<'g>(
     let (tree, [q, v, a]) = (robot.tree, robot.state);
     let placed = tree.place(q);
     let motion = accelerations(tree, &placed, v, a);
-    let is_bound: Vec<bool> = (0..tree.links.len()).map(|link| is_bound(tree, link)).collect();
+    let is_bound: Vec<bool> =
+        (0..tree.links.len()).map(|link| is_bound(tree, link) || !is_body[link]).collect();
     let mut columns: Vec<(RegressorColumn<Expr<'g>>, bool)> = Vec::new();
     for (k, own) in grouped(tree, is_body).into_iter().enumerate() {
         for Portion { of, value, inertia } in own {

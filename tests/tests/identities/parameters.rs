@@ -51,8 +51,8 @@ fn base_parameters_are_as_few_as_there_can_be() {
         let expected = match entry.name {
             // Shares in combinations are numbers: two that would be the pinion's radius, a field, are not found.
             "Gripper" => [base - 2, base - 2],
-            // What the fork gives to the link between its oblique axes is one moment, and stands in two columns.
-            "Cardan" => [base - 1, base],
+            // The same of one that has the length of the shaft in it.
+            "Cardan" => [base - 1, base - 1],
             _ => [base, base],
         };
         assert_eq!([of_all, of_base], expected, "{}: the ranks of Y and Y_b", entry.name);
