@@ -1,12 +1,15 @@
-//! Textbook robots by their textbook formulas.
+//! Robots by their textbook formulas.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use dynamics_core::prelude::*;
 use dynamics_tests::close::ROUNDING;
+use dynamics_tests::zoo::driven::cart_with_motor;
+use dynamics_tests::zoo::joints::{free_box, gripper, spherical_pendulum};
 use dynamics_tests::zoo::textbook::{
     acrobot, cart_pole, double_pendulum, pendulum, planar_3r, planar_scara, spherical_arm, stanford_arm,
 };
-use dynamics_tests::{Matrix, Random, assert_close};
+use dynamics_tests::{Matrix, Random, State, Vector, assert_close};
+use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
 
 const STATES: usize = 64;
 const EARTH: f64 = 9.81;
@@ -243,5 +246,127 @@ fn hand_of_the_stanford_arm_is_where_the_book_says() {
             [-s2 * (c4 * c5 * c6 - s4 * s6) - c2 * s5 * c6, s2 * (c4 * c5 * s6 + s4 * c6) + c2 * s5 * s6];
         let found = [pose.rotation[(2, 0)], pose.rotation[(2, 1)]];
         assert_close!(found, below, ROUNDING, floor = 1.0, "last row of the rotation of the Stanford arm");
+    }
+}
+
+/// Newton and Euler, in the body: `m(l̇ + ω×l) = f`, `Iω̇ + ω×Iω = n`, and the weight turned into it.
+#[test]
+fn free_box_agrees() {
+    let robot = free_box::robot::<f64>();
+    let free_box::FreeBox { m, l, w, h, g } = robot;
+    let I = Matrix3::from_diagonal(&Vector3::new(w * w + h * h, l * l + h * h, l * l + w * w)) * (m / 12.0);
+    let space = free_box::entry().space;
+    for State { q, v, a, .. } in State::many("free box", space, STATES) {
+        let R = UnitQuaternion::new_unchecked(Quaternion::new(q[6], q[3], q[4], q[5]));
+        let weight = R.inverse() * Vector3::new(0.0, 0.0, m * g);
+        let halves = |x: &Vector| (x.fixed_rows::<3>(0).into_owned(), x.fixed_rows::<3>(3).into_owned());
+        let ((linear, angular), (dl, dw)) = (halves(&v), halves(&a));
+        let force = (dl + angular.cross(&linear)) * m + weight;
+        let moment = I * dw + angular.cross(&(I * angular));
+        let [v, a] = [&v, &a].map(|x| SVector::from_column_slice(x.as_slice()));
+        let q = SVector::from_column_slice(q.as_slice());
+        let tau = robot.inverse_dynamics(&q, &v, &a);
+        let expected = [force.as_slice(), moment.as_slice()].concat();
+        assert_close!(tau.as_slice(), expected, ROUNDING, floor = m, "free box: τ");
+    }
+}
+
+/// Euler's equations about the socket, with the weight's moment: `I_o·ω̇ + ω×I_o·ω − c×(Rᵀ·m·g) = n`.
+#[test]
+fn spherical_pendulum_agrees() {
+    let robot = spherical_pendulum::robot::<f64>();
+    let spherical_pendulum::SphericalPendulum { m, l, ixy } = robot;
+    let c = Vector3::new(0.04, -0.03, -l);
+    let about_center = Matrix3::new(0.03, ixy, -0.003, ixy, 0.05, 0.006, -0.003, 0.006, 0.02);
+    let I = about_center + (Matrix3::identity() * c.norm_squared() - c * c.transpose()) * m;
+    let socket = UnitQuaternion::from_euler_angles(0.3, -0.5, 0.2);
+    let space = spherical_pendulum::entry().space;
+    for State { q, v, a, .. } in State::many("spherical pendulum", space, STATES) {
+        let R = socket * UnitQuaternion::new_unchecked(Quaternion::new(q[3], q[0], q[1], q[2]));
+        let [v, a] = [&v, &a].map(|x| SVector::<f64, 3>::from_column_slice(x.as_slice()));
+        let q = SVector::from_column_slice(q.as_slice());
+        let weight = R.inverse() * Vector3::new(0.0, 0.0, -m * EARTH);
+        let expected = I * a + v.cross(&(I * v)) - c.cross(&weight);
+        let tau = robot.inverse_dynamics(&q, &v, &a);
+        assert_close!(tau.as_slice(), expected.as_slice(), ROUNDING, floor = m, "spherical pendulum: τ");
+        assert_close!(robot.mass_matrix(&q).as_slice(), I.as_slice(), ROUNDING, "spherical pendulum: M");
+        let height = 0.9 + (R * c).z;
+        let energy = [robot.potential_energy(&q)];
+        assert_close!(energy, [m * EARTH * height], ROUNDING, floor = m, "spherical pendulum: V");
+    }
+}
+
+/// One motor at two: `B = [0; M⁻¹]` has its first column only, and the pole's hinge feels its damper.
+#[test]
+fn cart_with_motor_agrees() {
+    let robot = cart_with_motor::robot::<f64>();
+    let cart_with_motor::CartWithMotor { m_cart, m, l } = robot;
+    let upright = SVector::from([0.0, 0.0]);
+    let Linearization { a, b, drift } = robot.linearize(&upright, &upright, &SVector::from([0.0]));
+    // M = [m_cart + m, m l/2; m l/2, m l²/3] upright, and the slope of gravity is −m g l/2.
+    let det = (m_cart + m) * m * l * l / 3.0 - m * m * l * l / 4.0;
+    let (to_cart, to_pole) = (m * l * l / 3.0 / det, -m * l / 2.0 / det);
+    assert_close!(b.as_slice(), [0.0, 0.0, to_cart, to_pole], ROUNDING, "cart with motor: B");
+    let slope = m * EARTH * l / 2.0;
+    let of_hinge = [to_pole, (m_cart + m) / det];
+    assert_close!(
+        a.column(1).as_slice(),
+        [0.0, 0.0, of_hinge[0] * slope, of_hinge[1] * slope],
+        ROUNDING,
+        "∂/∂hinge"
+    );
+    let damped = [0.0, 1.0, -0.001 * of_hinge[0], -0.001 * of_hinge[1]];
+    assert_close!(a.column(3).as_slice(), damped, ROUNDING, "∂/∂(speed of the hinge)");
+    assert!(drift.amax() < ROUNDING, "it balances");
+}
+
+/// A follower is a constraint: `Wᵀ·M·W` of the gripper whose fingers move by themselves, with `q = W·q_own + offsets`.
+#[test]
+fn a_gripper_is_one_with_free_fingers_that_are_held_together() {
+    /// The gripper of the zoo without followers.
+    #[derive(Dynamics)]
+    #[dynamics(outputs(mass_matrix, bias_forces, inverse_dynamics))]
+    #[joint(roll: revolute(x), world -> palm, at = [0, 0, 0.4], rpy = [0.3, 0.2, 0.1])]
+    #[body(palm, mass = 0.8, com = [0.04, 0.01, 0], inertia = diag(0.0006, 0.0009, 0.001))]
+    #[joint(knuckle: revolute(z), palm -> left, at = [l, 0.03, 0], armature = 1e-4, damping = 0.02)]
+    #[body(left, mass = m, com = [l / 2, 0, 0.005], inertia = diag(0.00001, 0.00008, 0.00008))]
+    #[joint(left_bend: revolute(z), left -> left_tip, at = [l, 0, 0])]
+    #[body(left_tip, solid = cuboid(m / 2, [l, 1cm, 2cm]), com = [l / 2, 0, 0])]
+    #[joint(right_knuckle: revolute(z), palm -> right, at = [l, -0.03, 0])]
+    #[body(right, mass = m, com = [l / 2, 0, -0.005], inertia = diag(0.00001, 0.00008, 0.00008))]
+    #[joint(right_bend: revolute([0, 0.1, 1]), right -> right_tip, at = [l, 0, 0], stiffness = k, rest = 0.3,
+        friction = 0.01, friction_speed = 0.5)]
+    #[body(right_tip, solid = cuboid(m / 2, [l, 1cm, 2cm]), com = [l / 2, 0, 0])]
+    #[joint(push: prismatic(x), palm -> rack, at = [-2cm, 0, 0.01], damping = 3)]
+    #[body(rack, mass = 0.2, com = [0.03, 0, 0], inertia = diag(0.00001, 0.00005, 0.00005))]
+    #[joint(wag: revolute(y), rack -> tail, at = [-3cm, 0, 0])]
+    #[body(tail, solid = rod(30g, 10cm), com = [0, 0, -5cm])]
+    struct FreeFingers {
+        m: f64,
+        l: f64,
+        k: f64,
+    }
+
+    let robot = gripper::robot::<f64>();
+    let gripper::Gripper { m, l, pinion, k } = robot;
+    let fingers = FreeFingers { m, l, k };
+    // left_bend = −right_bend = −(2·knuckle + 5°); right_knuckle = 0.2 − knuckle; push = pinion·knuckle + 1 cm.
+    let five_degrees = 5_f64.to_radians();
+    let offsets = SVector::from([0.0, 0.0, -five_degrees, 0.2, five_degrees, 0.01, 0.0]);
+    let mut W = SMatrix::<f64, 7, 3>::zeros();
+    (W[(0, 0)], W[(6, 2)]) = (1.0, 1.0);
+    W.set_column(1, &SVector::from([0.0, 1.0, -2.0, -1.0, 2.0, pinion, 0.0]));
+    for State { q, v, a, .. } in gripper::entry().states(STATES) {
+        let [q, v, a] = [&q, &v, &a].map(|x| SVector::<f64, 3>::from_column_slice(x.as_slice()));
+        let (all_q, all_v, all_a) = (W * q + offsets, W * v, W * a);
+        let close = |what: &str, found: &[f64], expected: &[f64]| {
+            assert_close!(found, expected, ROUNDING, "gripper: {what}");
+        };
+        let expected = W.transpose() * fingers.mass_matrix(&all_q) * W;
+        close("M", robot.mass_matrix(&q).as_slice(), expected.as_slice());
+        let expected = W.transpose() * fingers.bias_forces(&all_q, &all_v);
+        close("h", robot.bias_forces(&q, &v).as_slice(), expected.as_slice());
+        let expected = W.transpose() * fingers.inverse_dynamics(&all_q, &all_v, &all_a);
+        close("τ", robot.inverse_dynamics(&q, &v, &a).as_slice(), expected.as_slice());
     }
 }

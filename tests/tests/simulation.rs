@@ -5,6 +5,8 @@ use dynamics_core::prelude::*;
 use dynamics_tests::Method::{self, Rk4, SemiImplicitEuler};
 use dynamics_tests::close::ROUNDING;
 use dynamics_tests::zoo::fixtures::lift;
+use dynamics_tests::zoo::industrial::hyq;
+use dynamics_tests::zoo::joints::{free_box, spherical_pendulum};
 use dynamics_tests::zoo::textbook::{any_toss, double_pendulum, pendulum, tossed_box};
 use dynamics_tests::zoo::{self, Entry};
 use dynamics_tests::{Forms, Robot, Run, State, Vector, assert_close};
@@ -154,4 +156,40 @@ fn a_box_tossed_anyhow_keeps_its_angular_momentum() {
     let last = simulation.steps(400).last().expect("there are steps").expect("it stays finite");
     let after = momentum(&last.state);
     assert_close!(after.as_slice(), before.as_slice(), 1e-9, "angular momentum of the box");
+}
+
+/// The order of a method is that of its steps along the manifold, too.
+#[test]
+fn halving_the_step_divides_the_error_by_the_order_on_a_manifold() {
+    let Forms { robot, .. } = spherical_pendulum::entry().double.expect("it is generic");
+    let (q, v) = (robot.neutral(), Vector::from_column_slice(&[0.5, 1.5, -2.0]));
+    let end = |step: f64, by| {
+        let count = (1.0 / step).round() as usize;
+        robot.simulate((&q, &v), step, count, by).expect("it stays finite").q
+    };
+    let exact = end(1.25e-4, Rk4);
+    for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0)] {
+        let error = |step| robot.difference(&exact, &end(step, by)).amax();
+        let found = (error(step) / error(step / 8.0)).log2() / 3.0;
+        assert!((found - order).abs() < 0.1, "{by:?} has order {found:.2}");
+    }
+}
+
+/// What nothing holds keeps its angular momentum, and its centre of mass falls along a parabola, however it tumbles and
+/// whatever swings on it.
+#[test]
+fn what_flies_keeps_its_angular_momentum_and_falls() {
+    for entry in [free_box::entry(), hyq::entry()] {
+        let (q, v) = start(&entry);
+        let Forms { robot, .. } = entry.double.expect("it is in doubles");
+        let end = robot.simulate((&q, &v), 5e-4, 400, Rk4).expect("it stays finite");
+        let (before, after) = (robot.centroidal_momentum(&q, &v), robot.centroidal_momentum(&end.q, &end.v));
+        let spins = [&after, &before].map(|momentum| momentum.rows(3, 3).into_owned());
+        assert_close!(spins[0].as_slice(), spins[1].as_slice(), 1e-7, "angular momentum of {}", entry.name);
+        let t = 0.2;
+        let mut expected = robot.center_of_mass(&q) + before.rows(0, 3) * (t / robot.total_mass());
+        expected[2] -= 9.81 * t * t / 2.0;
+        let found = robot.center_of_mass(&end.q);
+        assert_close!(found.as_slice(), expected.as_slice(), 1e-7, "the fall of {}", entry.name);
+    }
 }
