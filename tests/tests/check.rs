@@ -70,3 +70,36 @@ fn a_unit_struct_takes_the_scalar_with_the_call() {
     assert!((f64::from(single[0]) - tau[0]).abs() < 1e-6, "one rounding of f32 at the size of ten");
     assert!(OnlySomeOfUnit.forward_dynamics(&q, &SVector::zeros(), &tau)[0].abs() < TOLERANCE);
 }
+
+/// What acts in joints, and gravity, are parameters as others are.
+#[test]
+fn fields_of_joints_and_of_gravity_are_checked() {
+    use dynamics_tests::zoo::driven::{on_a_vehicle, sprung};
+
+    let sound = sprung::robot::<f64>();
+    assert_eq!(sound.check(), Ok(()));
+    let error = Err(Error::ParameterNotFinite { field: "stiff" });
+    assert_eq!(sprung::Sprung { stiff: f64::NAN, ..sound }.check(), error);
+    let error = Err(Error::ParameterNotFinite { field: "f" });
+    assert_eq!(sprung::Sprung { f: f64::INFINITY, ..sound }.check(), error);
+    let sound = on_a_vehicle::robot::<f64>();
+    assert_eq!(on_a_vehicle::OnAVehicle { gz: 0.0, ..sound }.check(), Ok(()), "nothing weighs anything");
+    let error = Err(Error::ParameterNotFinite { field: "gx" });
+    assert_eq!(on_a_vehicle::OnAVehicle { gx: f64::NAN, ..sound }.check(), error);
+}
+
+/// Of a robot whose base moves, gravity is another in each call: what the vehicle's acceleration makes of it.
+#[test]
+fn gravity_may_be_another_in_each_call() {
+    use dynamics_tests::zoo::driven::on_a_vehicle::{self, OnAVehicle};
+
+    let robot = on_a_vehicle::robot::<f64>();
+    let q = SVector::from([0.3, -0.4]);
+    let forces = |gx, gy, gz| OnAVehicle { gx, gy, gz, ..robot }.gravity_forces(&q);
+    let sum = forces(1.0, 0.0, 0.0) * 1.5 + forces(0.0, 1.0, 0.0) * -0.5 + forces(0.0, 0.0, 1.0) * -9.0;
+    assert!(
+        (forces(1.5, -0.5, -9.0) - sum).amax() < 1e-12,
+        "three roundings of forces of the size of a hundred"
+    );
+    assert!(forces(0.0, 0.0, 0.0).amax() == 0.0);
+}

@@ -229,3 +229,56 @@ mod shadowed {
         assert_eq!(super::mass(&Robot { M: 2.0, LENGTH: 0.5 }), super::EXPECTED);
     }
 }
+
+mod manifolds {
+    //! Balls, free bodies, followers and springs, with nothing in scope: what is generated for them fits as well.
+    #![no_implicit_prelude]
+
+    use ::dynamics_core::nalgebra::SVector;
+    use ::dynamics_core::{
+        CentroidalDynamics, Configuration, Dynamics, Mechanism, Regressor, StateSpaceModel,
+    };
+    use ::std::prelude::v1::{Ok, derive, test};
+    use ::std::{assert_eq, fmt::Debug};
+
+    /// A body that flies, with a ball, a spring and a follower on it.
+    #[derive(Dynamics, Debug)]
+    #[joint(base: free, world -> hull)]
+    #[body(hull, solid = sphere(m, 20cm))]
+    #[joint(socket: ball, hull -> arm, at = [l, 0, 0], actuated = off)]
+    #[body(arm, solid = rod(m, l), com = [0, 0, l])]
+    #[joint(slide: prismatic(z), arm -> tip, stiffness = k, friction = f, friction_speed = s)]
+    #[body(tip, solid = point(m))]
+    #[joint(turn: revolute(x), arm -> flag, mimic = slide, ratio = r, offset = 0.1)]
+    #[body(flag, solid = point(m), com = [0, l, 0])]
+    pub(crate) struct Flying<T> {
+        pub(crate) m: T,
+        pub(crate) l: T,
+        pub(crate) k: T,
+        pub(crate) f: T,
+        pub(crate) s: T,
+        pub(crate) r: T,
+    }
+
+    /// The same kinds in numbers.
+    #[derive(Dynamics, Debug)]
+    #[joint(base: free, world -> hull)]
+    #[body(hull, solid = sphere(1, 20cm))]
+    #[joint(socket: ball, hull -> arm, at = [0.5, 0, 0])]
+    #[body(arm, solid = cuboid(1, [0.1, 0.2, 0.3]))]
+    pub(crate) struct Fixed;
+
+    #[test]
+    fn they_work() {
+        let flying = Flying { m: 1.0, l: 0.5, k: 2.0, f: 0.1, s: 0.2, r: 3.0 }.prepare();
+        let q: SVector<f64, 12> = flying.neutral();
+        assert_eq!(flying.total_mass(), 4.0);
+        assert_eq!(flying.check_configuration(&q), Ok(()));
+        assert_eq!(flying.gravity_forces(&q)[2], 4.0 * 9.81);
+        assert_eq!(flying.input_map().ncols(), 1);
+        assert_eq!(flying.inertial_parameters().len(), <Flying<f64> as Mechanism>::PARAMETER_NAMES.len());
+        assert_eq!(flying.difference(&q, &flying.integrate(&q, &SVector::zeros())).amax(), 0.0);
+        let q: SVector<f32, 11> = Fixed.neutral();
+        assert_eq!(Fixed.mass_matrix(&q)[0], 2.0);
+    }
+}

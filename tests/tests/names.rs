@@ -67,6 +67,33 @@ rods! {
     common_types_as_fields: Box, Rod, Scalar;
 }
 
+/// A ball and a free body with fields, joints and bodies of the names that quaternions and steps along a manifold have.
+#[test]
+fn names_of_manifolds() {
+    #[derive(Dynamics)]
+    #[joint(free: free, world -> q)]
+    #[body(q, mass = w, inertia = diag(i, j, k))]
+    #[joint(ball: ball, q -> delta, at = [d0, p0, rate])]
+    #[body(delta, mass = w, com = [d0, 0, 0], inertia = diag(i, j, k))]
+    #[joint(planar: planar(z), delta -> neutral)]
+    #[body(neutral, mass = w, inertia = diag(i, j, k))]
+    struct Quaternion<T> {
+        i: T,
+        j: T,
+        k: T,
+        w: T,
+        d0: T,
+        p0: T,
+        rate: T,
+    }
+    let robot = Quaternion { i: 0.1, j: 0.1, k: 0.1, w: 2.0, d0: 0.5, p0: 0.25, rate: 0.125 };
+    let q = robot.neutral();
+    assert_eq!(robot.mass_matrix(&q)[(0, 0)], 6.0);
+    assert_eq!(robot.pose::<Delta>(&q).translation, SVector::from([0.5, 0.25, 0.125]));
+    let moved = robot.prepare().integrate(&q, &SVector::from_fn(|k, _| f64::from(u8::from(k < 3))));
+    assert_eq!(robot.pose::<Neutral>(&moved).translation, SVector::from([1.5, 1.25, 1.125]));
+}
+
 /// Bodies that would hide something common, and joints that could be no identifier.
 mod bodies {
     use dynamics_core::prelude::*;
