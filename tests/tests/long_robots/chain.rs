@@ -1,118 +1,7 @@
-//! A chain of fifty-two joints, whose longest equations no straight line could hold: they are left to the run time's
-//! recursion over a table, and must be the same equations.
-#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+//! A chain of fifty-two joints, each of one degree of freedom.
 
-use dynamics_codegen::mechanics::plain::Oracle;
-use dynamics_core::prelude::*;
-use dynamics_tests::close::{ROUNDING, largest};
-use dynamics_tests::roads::travel;
-use dynamics_tests::zoo::Entry;
-use dynamics_tests::{Part, Space, State, Vector, assert_close};
-
-const N: usize = 52;
-
-macro_rules! with_source {
-    ($($item:tt)*) => {
-        #[derive(Dynamics)]
-        $($item)*
-
-        const SOURCE: &str = stringify!($($item)*);
-    };
-}
-
-/// Runs `check` with the plain recursion, at random states.
-fn for_each_state(check: impl Fn(Oracle<'_>, &State, f64)) {
-    let entry = Entry {
-        name: "Chain",
-        source: SOURCE,
-        parameters: &[],
-        space: Space(&[Part::Lines(N)]),
-        costs: Chain::COST,
-        joint_names: Chain::JOINT_NAMES,
-        body_names: Chain::BODY_NAMES,
-        parameter_names: Chain::PARAMETER_NAMES,
-        base_parameter_names: Chain::BASE_PARAMETER_NAMES,
-        double: None,
-        single: None,
-        dual: None,
-    };
-    travel(&entry, |roads| {
-        for state in entry.states(3) {
-            let force = largest(&roads.oracle().mass_matrix(state.q.as_slice()).concat());
-            check(roads.oracle(), &state, force);
-        }
-    });
-}
-
-fn fixed(x: &Vector) -> SVector<f64, N> {
-    SVector::from_column_slice(x.as_slice())
-}
-
-fn rows(m: &SMatrix<f64, N, N>) -> Vec<f64> {
-    m.transpose().as_slice().to_vec()
-}
-
-#[test]
-fn equations_of_motion_by_the_table_agree_with_the_plain_recursion() {
-    for_each_state(|oracle, State { q, v, a, .. }, force| {
-        let [qs, vs, accelerations] = [q, v, a].map(Vector::as_slice);
-        let [q, v, a] = [q, v, a].map(fixed);
-        let EquationsOfMotion { mass_matrix, coriolis_matrix, gravity_forces } =
-            Chain.equations_of_motion(&q, &v);
-        let close = |what: &str, found: &[f64], expected: Vec<f64>| {
-            assert_close!(found, expected, ROUNDING, floor = force, "chain: {what}");
-        };
-        close("M", &rows(&mass_matrix), oracle.mass_matrix(qs).concat());
-        close("C", &rows(&coriolis_matrix), oracle.coriolis_matrix(qs, vs).concat());
-        close("C alone", &rows(&Chain.coriolis_matrix(&q, &v)), oracle.coriolis_matrix(qs, vs).concat());
-        close("G", gravity_forces.as_slice(), oracle.gravity_forces(qs));
-        let tau = Chain.inverse_dynamics(&q, &v, &a);
-        close("τ", tau.as_slice(), oracle.inverse_dynamics(qs, vs, accelerations));
-    });
-}
-
-#[test]
-fn derivatives_by_the_table_agree_with_the_plain_recursion() {
-    for_each_state(|oracle, State { q, v, a, .. }, force| {
-        let [qs, vs, accelerations] = [q, v, a].map(Vector::as_slice);
-        let exact = oracle.inverse_dynamics_derivatives(qs, vs, accelerations);
-        let [q, v, a] = [q, v, a].map(fixed);
-        let InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da } =
-            Chain.inverse_dynamics_derivatives(&q, &v, &a);
-        let close = |what: &str, found: &SMatrix<f64, N, N>, expected: Vec<f64>| {
-            assert_close!(rows(found), expected, ROUNDING, floor = force, "chain: {what}");
-        };
-        close("∂τ/∂q", &dtau_dq, exact.dtau_dq.concat());
-        close("∂τ/∂v", &dtau_dv, exact.dtau_dv.concat());
-        close("∂τ/∂a", &dtau_da, exact.dtau_da.concat());
-    });
-}
-
-#[test]
-fn forward_dynamics_and_its_derivatives_answer_the_forces() {
-    for_each_state(|oracle, State { q, v, tau, .. }, _| {
-        let [qs, vs, forces] = [q, v, tau].map(Vector::as_slice);
-        let [q, v, tau] = [q, v, tau].map(fixed);
-        let a = Chain.forward_dynamics(&q, &v, &tau);
-        let residual = oracle.forward_dynamics_residual(qs, vs, forces, a.as_slice());
-        assert!(residual <= ROUNDING, "chain: a misses τ by {residual:.1e}");
-
-        let exact = oracle.inverse_dynamics_derivatives(qs, vs, a.as_slice());
-        let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } =
-            Chain.forward_dynamics_derivatives(&q, &v, &tau);
-        let M = Chain.equations_of_motion(&q, &v).mass_matrix;
-        let solves = |what: &str, X: &SMatrix<f64, N, N>, B: Vec<f64>| {
-            let terms = (M.abs() * X.abs()).amax();
-            assert_close!(rows(&(M * X)), B, ROUNDING, floor = terms, "chain: M·{what}");
-        };
-        let negative = |block: Vec<Vec<f64>>| block.concat().iter().map(|x| -x).collect::<Vec<f64>>();
-        solves("∂a/∂q", &da_dq, negative(exact.dtau_dq));
-        solves("∂a/∂v", &da_dv, negative(exact.dtau_dv));
-        solves("∂a/∂τ", &da_dtau, rows(&SMatrix::identity()));
-    });
-}
-
-with_source! {
+crate::robot! {
+    Chain, &[Part::Lines(52)];
     /// Alike links one after the other, with a slide and a massless one here and there.
     #[dynamics(outputs(equations_of_motion, coriolis_matrix, inverse_dynamics, forward_dynamics,
         inverse_dynamics_derivatives, forward_dynamics_derivatives))]
@@ -236,5 +125,5 @@ with_source! {
         inertia = tensor(0.0002, 0.00001, 0, 0.0003, 0.00002, 0.0003))]
     #[joint(j52: revolute(x), b51 -> b52, at = [0.05, 0, 0])]
     #[body(b52, mass = 0.2, com = [0.03, 0, 0.01], inertia = diag(0.0001, 0.0002, 0.0002))]
-    pub struct Chain;
+    struct Chain;
 }
