@@ -4,6 +4,7 @@ use std::vec::IntoIter;
 
 use proc_macro2::{Delimiter, Ident, Literal, Span, TokenStream, TokenTree};
 
+use super::Name;
 use crate::diagnostics::{Code, Diagnostic, Place};
 
 /// What reading returns: a value, or the first mistake in it.
@@ -74,6 +75,21 @@ impl Cursor {
         }
     }
 
+    /// A name: an identifier, or, of what is called otherwise in a file, a text in quotes.
+    pub(super) fn name(&mut self) -> Option<Name> {
+        if let Some(ident) = self.ident() {
+            return Some(Name::new(&ident));
+        }
+        let TokenTree::Literal(literal) = self.tokens.peek()? else { return None };
+        let text = syn::parse_str::<syn::LitStr>(&literal.to_string()).ok()?.value();
+        let place = literal.span().into();
+        let is_visible = text.chars().any(|c| !c.is_whitespace()) && !text.contains(char::is_control);
+        is_visible.then(|| {
+            self.tokens.next();
+            Name { text, place }
+        })
+    }
+
     pub(super) fn literal(&mut self) -> Option<Literal> {
         match self.tokens.next_if(|token| matches!(token, TokenTree::Literal(_)))? {
             TokenTree::Literal(literal) => Some(literal),
@@ -87,12 +103,9 @@ impl Cursor {
     }
 
     /// The identifier that is all there is.
-    pub(super) fn only_ident(&self) -> Option<Ident> {
+    pub(super) fn is_a_name(&self) -> bool {
         let mut tokens = self.tokens.clone();
-        match (tokens.next(), tokens.next()) {
-            (Some(TokenTree::Ident(ident)), None) => Some(ident),
-            _ => None,
-        }
+        matches!((tokens.next(), tokens.next()), (Some(TokenTree::Ident(_) | TokenTree::Literal(_)), None))
     }
 
     /// Whether there is a `->`, not within a group.

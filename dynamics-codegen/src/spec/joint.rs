@@ -116,8 +116,7 @@ impl JointLine {
     /// Reads the contents of the attribute. Keys that fail are reported and left out.
     pub(super) fn parse(input: Cursor, place: Place, line: usize, diags: &mut Diagnostics) -> Option<Self> {
         let mut items = input.items();
-        let names_a_joint =
-            |first: &mut Cursor| first.only_ident().is_some() || first.peek_group(Delimiter::Bracket);
+        let names_a_joint = |first: &mut Cursor| first.is_a_name() || first.peek_group(Delimiter::Bracket);
         if items.len() > 1
             && !items.iter().any(Cursor::has_arrow)
             && items.first_mut().is_some_and(names_a_joint)
@@ -191,7 +190,7 @@ struct Head {
 
 impl Head {
     fn parse(mut item: Cursor) -> Result<Self> {
-        let Some(name) = item.ident() else { return Err(item.expected("the joint's name")) };
+        let Some(name) = item.name() else { return Err(item.expected("the joint's name")) };
         if !item.punct(':') {
             return Err(item.expected("`:` after the joint's name"));
         }
@@ -203,7 +202,7 @@ impl Head {
             None => (vec![], None),
         };
         item.finish("the joint's kind")?;
-        Ok(Self { name: Name::new(&name), kind, kind_place: kind_name.place, axes, pitch })
+        Ok(Self { name, kind, kind_place: kind_name.place, axes, pitch })
     }
 }
 
@@ -239,13 +238,13 @@ fn is_named_axis(formula: &Formula) -> bool {
 
 /// `parent -> child`
 fn edge(mut item: Cursor) -> Result<(Name, Name)> {
-    let Some(parent) = item.ident() else { return Err(item.expected("`parent -> child`")) };
+    let Some(parent) = item.name() else { return Err(item.expected("`parent -> child`")) };
     if !(item.punct('-') && item.punct('>')) {
         return Err(item.expected("`->` between the parent and the child"));
     }
-    let Some(child) = item.ident() else { return Err(item.expected("the body that the joint carries")) };
+    let Some(child) = item.name() else { return Err(item.expected("the body that the joint carries")) };
     item.finish("the child")?;
-    Ok((Name::new(&parent), Name::new(&child)))
+    Ok((parent, child))
 }
 
 impl Axis {

@@ -134,9 +134,9 @@ pub(super) fn count_wrong(count: usize, place: &Place, of: &str, parts: &[&str])
 
 /// A single name.
 pub(super) fn name(mut item: Cursor, what: &str) -> Result<Name> {
-    let Some(ident) = item.ident() else { return Err(item.expected(what)) };
+    let Some(name) = item.name() else { return Err(item.expected(what)) };
     item.finish("the name")?;
-    Ok(Name::new(&ident))
+    Ok(name)
 }
 
 /// Fills a slot; a second time is a mistake.

@@ -183,6 +183,20 @@ fn joints_of_a_file_can_be_locked_and_their_followers_stand_still() {
     assert_eq!(model(&spec, &Graph::new()).tree.links.len(), 5);
 }
 
+/// What is called otherwise than Rust's names stands in quotes.
+#[test]
+fn names_of_a_file_may_be_in_quotes() {
+    let text = everything().replace("\"hip\"", "\"hip-1\"").replace("\"leg\"", "\"left leg\"");
+    let lines = r#"#[joint("hip-1", damping = 0.5)] #[body("left leg", com = [0, 0, l])]
+        #[joint("strap 1": fixed, "left leg" -> "a/b")] #[joint(["knee"], stiffness = 2)]"#;
+    let (spec, _) = beside(lines, &text);
+    assert_eq!(find(&spec, "strap 1").parent.text, "left leg");
+    let graph = Graph::new();
+    let model = model(&spec, &graph);
+    let damping = model.tree.links[1].passive.damping;
+    assert_eq!(damping.as_number().map(|x| x.to_f64()), Some(0.5));
+}
+
 /// Legs have the same motors.
 #[test]
 fn a_line_may_be_of_several_joints() {
