@@ -32,7 +32,11 @@ pub fn generated(entry: &Entry) -> String {
 }
 
 /// Reads a file by its path from the root of this crate, as the derive does.
-fn read(path: &str) -> Result<Vec<u8>, String> {
+///
+/// # Errors
+///
+/// What the system says.
+pub fn read(path: &str) -> Result<Vec<u8>, String> {
     std::fs::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).map_err(|error| error.to_string())
 }
 

@@ -3,8 +3,9 @@
 use dynamics_core::{JointLimits, Mechanism};
 use dynamics_tests::roads::travel;
 use dynamics_tests::zoo;
+use dynamics_tests::zoo::files::{hyq, loaded_scara};
 use dynamics_tests::zoo::fixtures::{lift, torso};
-use dynamics_tests::zoo::industrial::{hyq, iiwa14, loaded_scara, puma560_by_dh};
+use dynamics_tests::zoo::industrial::{iiwa14, puma560_by_dh};
 use dynamics_tests::zoo::joints::{gripper, locked, two_free_bodies};
 
 #[test]

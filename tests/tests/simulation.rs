@@ -4,8 +4,8 @@
 use dynamics_core::prelude::*;
 use dynamics_tests::Method::{self, Rk4, SemiImplicitEuler};
 use dynamics_tests::close::ROUNDING;
+use dynamics_tests::zoo::files::hyq;
 use dynamics_tests::zoo::fixtures::lift;
-use dynamics_tests::zoo::industrial::hyq;
 use dynamics_tests::zoo::joints::{free_box, spherical_pendulum};
 use dynamics_tests::zoo::textbook::{any_toss, double_pendulum, pendulum, tossed_box};
 use dynamics_tests::zoo::{self, Entry};

@@ -1,6 +1,7 @@
 //! The zoo: every robot with its specification as text, its values, and its compiled forms.
 
 pub mod driven;
+pub mod files;
 pub mod fixtures;
 pub mod industrial;
 pub mod joints;
@@ -47,7 +48,7 @@ impl Entry {
 
 /// All robots, small ones first.
 pub fn all() -> Vec<Entry> {
-    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all()]
+    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all(), files::all()]
         .into_iter()
         .flatten()
         .collect()
