@@ -25,7 +25,7 @@ use spec::urdf::{Report, Urdf};
 use symbolic::Graph;
 
 /// The deepest nesting of groups that is read at all: what reads tokens recurses.
-const NESTING_LIMIT: usize = 128;
+const NESTING_LIMIT: usize = 64;
 
 /// Expands `#[derive(Dynamics)]`.
 ///

@@ -11,7 +11,7 @@ use crate::diagnostics::{Code, Diagnostic, Place};
 pub(super) type Result<T> = std::result::Result<T, Diagnostic>;
 
 /// How deep groups and functions may be nested.
-const DEPTH_LIMIT: usize = 64;
+const DEPTH_LIMIT: usize = 32;
 
 /// The tokens of one group, or of one item of a list, not yet read.
 pub(super) struct Cursor {

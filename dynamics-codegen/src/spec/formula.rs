@@ -16,7 +16,7 @@ pub struct Formula {
     pub place: Place,
 }
 
-/// The forms of a [`Formula`]. Sums and products are flat: only parentheses and functions nest, at most 64 deep.
+/// The forms of a [`Formula`]. Sums and products are flat: only parentheses and functions nest, at most 32 deep.
 #[derive(Clone, Debug)]
 pub enum FormulaKind {
     /// A literal with its unit, as in `90deg`. The value is in the unit.

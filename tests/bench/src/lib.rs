@@ -7,12 +7,6 @@ pub struct Entry;
 
 mod declaration {
     macro_rules! robot {
-        ($module:ident = $name:ident as $($rest:tt)*) => {
-            crate::declaration::unraced! { $module }
-        };
-        ($module:ident = $name:ident<$($rest:tt)*) => {
-            crate::declaration::unraced! { $module }
-        };
         ($module:ident = $name:ident, $sizes:tt, $frames:tt; $($item:tt)*) => {
             #[doc = concat!("The robot `", stringify!($name), "`.")]
             pub mod $module {
@@ -28,19 +22,7 @@ mod declaration {
         };
     }
 
-    // Robots on the tests' own files, and those with fields, are in no race.
-    macro_rules! unraced {
-        ($module:ident) => {
-            #[doc = concat!("Nothing: `", stringify!($module), "` is in no race.")]
-            pub mod $module {
-                pub(super) fn entry() -> crate::Entry {
-                    crate::Entry
-                }
-            }
-        };
-    }
-
-    pub(super) use {robot, unraced};
+    pub(super) use robot;
 }
 
 use declaration::robot;
