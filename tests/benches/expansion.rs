@@ -7,6 +7,7 @@
 
 use std::time::{Duration, Instant};
 
+use dynamics_codegen::spec::urdf::Urdf;
 use dynamics_tests::{roads, zoo};
 
 const RUNS: usize = 5;
