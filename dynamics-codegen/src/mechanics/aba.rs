@@ -23,26 +23,10 @@ pub fn forward_dynamics<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S], tau:
     base_to_tip(tree, &joints, &drift, &articulated)
 }
 
-/// An acceleration: angular, and of the origin.
-#[derive(Clone, Copy)]
-struct Rate<S> {
-    angular: Vector3<S>,
-    linear: Vector3<S>,
-}
-
-impl<S: Scalar> Rate<S> {
-    /// The rate in the frame of the link beyond the joint, without the joint's own.
-    fn down(self, joint: &PlacedJoint<S>) -> Self {
-        let linear = self.linear + self.angular.cross(joint.position);
-        Self { angular: joint.down(self.angular), linear: joint.down(linear) }
-    }
-}
-
-impl<S: Scalar> std::ops::Add for Rate<S> {
-    type Output = Self;
-    fn add(self, rhs: Self) -> Self {
-        Self { angular: self.angular + rhs.angular, linear: self.linear + rhs.linear }
-    }
+/// An acceleration, angular and of the origin, in the frame of the link beyond the joint, without the joint's own.
+fn down<S: Scalar>(rate: Twist<S>, joint: &PlacedJoint<S>) -> Twist<S> {
+    let linear = rate.linear + rate.angular.cross(joint.position);
+    Twist { angular: joint.down(rate.angular), linear: joint.down(linear) }
 }
 
 #[derive(Clone, Copy)]
@@ -55,7 +39,7 @@ struct ArticulatedInertia<S> {
 /// What is left of a joint once all beyond it is folded into it: `a = (u − Uᵀ rate)·inverse_D`.
 #[derive(Clone, Copy)]
 struct Joint<S> {
-    U: Rate<S>,
+    U: Twist<S>,
     inverse_D: S,
     u: S,
 }
@@ -66,7 +50,7 @@ fn drifts<S: Scalar>(
     joints: &[PlacedJoint<S>],
     velocity: &[LinkVelocity<S>],
     qd: &[S],
-) -> Vec<Rate<S>> {
+) -> Vec<Twist<S>> {
     let speeds = tree.joint_motions(qd);
     let drift = |k: usize| {
         let joint = &joints[k];
@@ -74,15 +58,15 @@ fn drifts<S: Scalar>(
         let centripetal = joint.down(w_parent.cross(w_parent.cross(joint.position)));
         let (w, Twist { angular, linear }) = (velocity[k].w, speeds[k]);
         match joint.motion {
-            Motion::Revolute => Rate { angular: w.cross_z().scale(angular.0[2]), linear: centripetal },
+            Motion::Revolute => Twist { angular: w.cross_z().scale(angular.0[2]), linear: centripetal },
             Motion::Prismatic => {
                 let sweep = w.cross_z().scale(linear.0[2]);
-                Rate { angular: Vector3::zero(), linear: centripetal + sweep.scale(S::from(2)) }
+                Twist { angular: Vector3::zero(), linear: centripetal + sweep.scale(S::from(2)) }
             }
             Motion::Ball | Motion::Free => {
                 let carried = joint.down(w_parent);
                 let sweep = (carried + w).cross(linear);
-                Rate { angular: carried.cross(angular), linear: centripetal + sweep }
+                Twist { angular: carried.cross(angular), linear: centripetal + sweep }
             }
         }
     };
@@ -93,7 +77,7 @@ fn tip_to_base<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
     velocity: &[LinkVelocity<S>],
-    drift: &[Rate<S>],
+    drift: &[Twist<S>],
     tau: &[S],
 ) -> Vec<Joint<S>> {
     let mut inertias: Vec<ArticulatedInertia<S>> =
@@ -127,14 +111,14 @@ fn tip_to_base<S: Scalar>(
 fn base_to_tip<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
-    drift: &[Rate<S>],
+    drift: &[Twist<S>],
     folded: &[Joint<S>],
 ) -> Vec<S> {
-    let base = Rate { angular: Vector3::zero(), linear: -tree.gravity };
-    let mut rates: Vec<Rate<S>> = Vec::with_capacity(tree.links.len());
+    let base = Twist { angular: Vector3::zero(), linear: -tree.gravity };
+    let mut rates: Vec<Twist<S>> = Vec::with_capacity(tree.links.len());
     let mut accelerations = Vec::with_capacity(tree.columns.len());
     for (k, (link, joint)) in tree.links.iter().zip(joints).enumerate() {
-        let mut rate = link.parent.map_or(base, |p| rates[p]).down(joint) + drift[k];
+        let mut rate = down(link.parent.map_or(base, |p| rates[p]), joint) + drift[k];
         for c in tree.columns_of(k) {
             let Joint { U, inverse_D, u } = folded[c];
             let a = (u - (U.angular.dot(rate.angular) + U.linear.dot(rate.linear))) * inverse_D;
@@ -176,11 +160,11 @@ fn fold<S: Scalar>(
     let (U, D) = match direction {
         Direction::About(k) => {
             let angular = J.full().column(k);
-            (Rate { angular, linear: H.row(k) }, angular.0[k])
+            (Twist { angular, linear: H.row(k) }, angular.0[k])
         }
         Direction::Along(k) => {
             let linear = M.full().column(k);
-            (Rate { angular: H.column(k), linear }, linear.0[k])
+            (Twist { angular: H.column(k), linear }, linear.0[k])
         }
     };
     Joint { U, inverse_D: S::one() / (D + armature), u: tau - wrench.along(direction) }
@@ -193,7 +177,7 @@ fn without_joint<S: Scalar>(
     direction: Direction,
     has_armature: bool,
 ) -> ArticulatedInertia<S> {
-    let Rate { angular: n, linear: f } = joint.U;
+    let Twist { angular: n, linear: f } = joint.U;
     let (dn, df) = (n.scale(joint.inverse_D), f.scale(joint.inverse_D));
     let less = |a: Symmetric3<S>, x: Vector3<S>, y: Vector3<S>| {
         let Symmetric3 { xx, yy, zz, xy, xz, yz } =
@@ -223,7 +207,7 @@ fn without_joint<S: Scalar>(
 }
 
 /// The wrench `I c` for a rate `c`.
-fn wrench_for<S: Scalar>(inertia: &ArticulatedInertia<S>, rate: Rate<S>) -> Wrench<S> {
+fn wrench_for<S: Scalar>(inertia: &ArticulatedInertia<S>, rate: Twist<S>) -> Wrench<S> {
     let ArticulatedInertia { J, H, M } = *inertia;
     Wrench {
         N: J.times(rate.angular) + H * rate.linear,

@@ -28,8 +28,9 @@ pub fn base_columns<'g>(
     let (tree, [q, v, a]) = (robot.tree, robot.state);
     let placed = tree.place(q);
     let motion = accelerations(tree, &placed, v, a);
+    let is_coupled = !robot.coupling.is_identity();
     let is_bound: Vec<bool> =
-        (0..tree.links.len()).map(|link| is_bound(tree, link) || !is_body[link]).collect();
+        (0..tree.links.len()).map(|link| is_coupled || !is_body[link] || is_bound(tree, link)).collect();
     let mut columns: Vec<(RegressorColumn<Expr<'g>>, bool)> = Vec::new();
     for (k, own) in grouped(tree, is_body).into_iter().enumerate() {
         for Portion { of, value, inertia } in own {
@@ -47,16 +48,11 @@ pub fn base_columns<'g>(
 
 /// Whether a link moves so little that its parameters may be entangled with others: unless it turns about a point, or
 /// what carries it does, or does so about two axes that are not parallel. The link at the second of these is bound yet:
-/// where the axes are at right angles its rotor acts as moments of it and of the first link do. Where joints follow
-/// others all links are bound.
+/// where the axes are at right angles its rotor acts as moments of it and of the first link do. Of robots whose joints
+/// follow others all links are bound, and of others those between the parts of joints.
 fn is_bound<S: Scalar>(tree: &NormalTree<S>, last: usize) -> bool {
     let mut path: Vec<usize> = tree.path_to_base(last).collect();
     path.reverse();
-    let mut shared = tree.columns.iter().map(|column| column.speed).collect::<Vec<_>>();
-    shared.sort_unstable();
-    if shared.windows(2).any(|pair| pair[0] == pair[1]) {
-        return true;
-    }
     // From the last turning link's frame to the frame at hand.
     let mut since: Option<Matrix3<S>> = None;
     for k in path {

@@ -19,14 +19,9 @@ pub enum Direction {
 impl Direction {
     /// The unit motion.
     pub fn twist<S: Scalar>(self) -> Twist<S> {
-        let unit = |k: usize| {
-            let mut unit = Vector3::zero();
-            unit.0[k] = S::one();
-            unit
-        };
         match self {
-            Self::Along(k) => Twist { angular: Vector3::zero(), linear: unit(k) },
-            Self::About(k) => Twist { angular: unit(k), linear: Vector3::zero() },
+            Self::Along(k) => Twist { linear: Vector3::unit(k), ..Twist::zero() },
+            Self::About(k) => Twist { angular: Vector3::unit(k), ..Twist::zero() },
         }
     }
 }
@@ -52,10 +47,22 @@ pub struct Twist<S> {
 }
 
 impl<S: Scalar> Twist<S> {
+    /// At rest.
+    pub fn zero() -> Self {
+        Self { angular: Vector3::zero(), linear: Vector3::zero() }
+    }
+
     /// `[self, S]`: how a unit motion changes that is carried along by a body with this motion.
     pub fn carries(self, unit: Self) -> Self {
         let (w, v) = (self.angular, self.linear);
         Self { angular: w.cross(unit.angular), linear: w.cross(unit.linear) + v.cross(unit.angular) }
+    }
+}
+
+impl<S: Scalar> std::ops::Add for Twist<S> {
+    type Output = Self;
+    fn add(self, rhs: Self) -> Self {
+        Self { angular: self.angular + rhs.angular, linear: self.linear + rhs.linear }
     }
 }
 

@@ -57,6 +57,7 @@ pub struct Derivation<'g> {
     /// The coordinates that begin unit quaternions.
     quaternions: Vec<usize>,
     /// Derived when first asked for.
+    motions: OnceCell<frames::LinkMotions<Expr<'g>>>,
     regressor: OnceCell<Vec<RegressorColumn<Expr<'g>>>>,
     base_regressor: OnceCell<Vec<RegressorColumn<Expr<'g>>>>,
 }
@@ -82,6 +83,7 @@ impl<'g> Derivation<'g> {
             bodies: model.links.iter().map(|link| link.body).collect(),
             acts: model.links.iter().map(|link| link.acts).collect(),
             quaternions: model.tree.quaternions().collect(),
+            motions: OnceCell::new(),
             regressor: OnceCell::new(),
             base_regressor: OnceCell::new(),
         }
@@ -228,9 +230,11 @@ impl<'g> Derivation<'g> {
             Method::Pose(frame) => self.pose(frame),
             Method::Jacobian(frame) => vec![self.jacobian(frame, Axes::Body)],
             Method::WorldJacobian(frame) => vec![self.jacobian(frame, Axes::World)],
-            Method::Velocity(frame) => vec![vector("twist", self.frame_motion(frame).velocity.to_vec())],
+            Method::Velocity(frame) => {
+                vec![vector("twist", self.motions().twist(&self.kinematic.frames[frame]).to_vec())]
+            }
             Method::Acceleration(frame) => {
-                vec![vector("rate", self.frame_motion(frame).acceleration.to_vec())]
+                vec![vector("rate", self.motions().twist_rate(&self.kinematic.frames[frame]).to_vec())]
             }
         }
     }
@@ -359,9 +363,9 @@ impl<'g> Derivation<'g> {
         }
     }
 
-    fn frame_motion(&self, frame: usize) -> frames::FrameMotion<Expr<'g>> {
-        let tree = &self.kinematic;
-        frames::motion(tree, &tree.frames[frame], &self.q, &self.v, &self.a)
+    /// How the links move, once for all frames.
+    fn motions(&self) -> &frames::LinkMotions<Expr<'g>> {
+        self.motions.get_or_init(|| frames::LinkMotions::of(&self.kinematic, &self.q, &self.v, &self.a))
     }
 }
 

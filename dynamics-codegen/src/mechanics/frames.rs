@@ -89,36 +89,44 @@ fn seen_from<S: Scalar>(
     }
 }
 
-/// A frame's motion: the rates of its twist as well as the twist, in its own axes, linear first.
-pub struct FrameMotion<S> {
-    /// `J·v`
-    pub velocity: [S; 6],
-    /// `J·a + J̇·v`, without gravity.
-    pub acceleration: [S; 6],
+/// How all links move, as if there were no gravity.
+#[derive(Clone)]
+pub struct LinkMotions<S> {
+    velocity: Vec<LinkVelocity<S>>,
+    acceleration: Vec<LinkAcceleration<S>>,
 }
 
-/// The motion of a frame at speeds `qd` and accelerations `qdd` of the columns.
-pub fn motion<S: Scalar>(
-    tree: &NormalTree<S>,
-    frame: &NormalFrame<S>,
-    q: &[S],
-    qd: &[S],
-    qdd: &[S],
-) -> FrameMotion<S> {
-    let Some(link) = frame.link else {
-        return FrameMotion { velocity: [S::zero(); 6], acceleration: [S::zero(); 6] };
-    };
-    let joints = tree.place(q);
-    let weightless = NormalTree { gravity: Vector3::zero(), ..tree.clone() };
-    let LinkVelocity { w, v } = velocities(&weightless, &joints, qd)[link];
-    let LinkAcceleration { U, wd, a, .. } = accelerations(&weightless, &joints, qd, qdd)[link];
-    let (R, p) = (frame.pose.rotation.transpose(), frame.pose.translation);
-    let velocity = v + w.cross(p);
-    // The origin's acceleration, less what comes of the turning axes.
-    let rate = a + U * p - w.cross(velocity);
-    let both = |linear: Vector3<S>, angular: Vector3<S>| {
-        let ([x, y, z], [i, j, k]) = ((R * linear).0, (R * angular).0);
-        [x, y, z, i, j, k]
-    };
-    FrameMotion { velocity: both(velocity, w), acceleration: both(rate, wd) }
+impl<S: Scalar> LinkMotions<S> {
+    /// At speeds `qd` and accelerations `qdd` of the columns.
+    pub fn of(tree: &NormalTree<S>, q: &[S], qd: &[S], qdd: &[S]) -> Self {
+        let weightless = NormalTree { gravity: Vector3::zero(), ..tree.clone() };
+        let joints = weightless.place(q);
+        Self {
+            velocity: velocities(&weightless, &joints, qd),
+            acceleration: accelerations(&weightless, &joints, qd, qdd),
+        }
+    }
+
+    /// The twist `J·v` of a frame in its own axes, linear first.
+    pub fn twist(&self, frame: &NormalFrame<S>) -> [S; 6] {
+        let Some(link) = frame.link else { return [S::zero(); 6] };
+        let LinkVelocity { w, v } = self.velocity[link];
+        in_frame(frame, v + w.cross(frame.pose.translation), w)
+    }
+
+    /// The rate `J·a + J̇·v` of that twist.
+    pub fn twist_rate(&self, frame: &NormalFrame<S>) -> [S; 6] {
+        let Some(link) = frame.link else { return [S::zero(); 6] };
+        let (LinkVelocity { w, v }, p) = (self.velocity[link], frame.pose.translation);
+        let LinkAcceleration { U, wd, a, .. } = self.acceleration[link];
+        // The origin's acceleration, less what comes of the turning axes.
+        in_frame(frame, a + U * p - w.cross(v + w.cross(p)), wd)
+    }
+}
+
+/// A pair of vectors of a link in the axes of a frame on it.
+fn in_frame<S: Scalar>(frame: &NormalFrame<S>, linear: Vector3<S>, angular: Vector3<S>) -> [S; 6] {
+    let R = frame.pose.rotation.transpose();
+    let ([x, y, z], [i, j, k]) = ((R * linear).0, (R * angular).0);
+    [x, y, z, i, j, k]
 }

@@ -76,8 +76,7 @@ impl<S: Scalar> NormalTree<S> {
 
     /// What each link does against its parent at the speeds `v` of the columns; of accelerations, what they add.
     pub fn joint_motions(&self, v: &[S]) -> Vec<Twist<S>> {
-        let rest = Twist { angular: Vector3::zero(), linear: Vector3::zero() };
-        let mut motions = vec![rest; self.links.len()];
+        let mut motions = vec![Twist::zero(); self.links.len()];
         for (column, &speed) in self.columns.iter().zip(v) {
             let motion = &mut motions[column.link];
             match column.direction {

@@ -139,11 +139,7 @@ fn parameters<S: Scalar>(link: &NormalLink<S>, pose: Pose<S>) -> [S; 10] {
 /// The wrench, force first, that each of the ten parameters needs to move so.
 fn unit_wrenches<S: Scalar>(motion: &LinkAcceleration<S>) -> [[S; 6]; 10] {
     let LinkAcceleration { w, wd, U, a } = *motion;
-    let unit = |k: usize| {
-        let mut unit = Vector3::zero();
-        unit.0[k] = S::one();
-        unit
-    };
+    let unit = Vector3::unit;
     let six = |force: Vector3<S>, moment: Vector3<S>| {
         let ([x, y, z], [i, j, k]) = (force.0, moment.0);
         [x, y, z, i, j, k]

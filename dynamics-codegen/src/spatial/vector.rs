@@ -19,9 +19,16 @@ impl<S: Scalar> Vector3<S> {
         Self([S::zero(); 3])
     }
 
+    /// The unit vector along x, y or z (0, 1, 2).
+    pub fn unit(k: usize) -> Self {
+        let mut unit = Self::zero();
+        unit.0[k] = S::one();
+        unit
+    }
+
     /// The unit vector along z.
     pub fn unit_z() -> Self {
-        Self([S::zero(), S::zero(), S::one()])
+        Self::unit(2)
     }
 
     /// `k·self`
