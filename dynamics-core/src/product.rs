@@ -1,5 +1,7 @@
 //! The matrix product, without the panic paths nalgebra's leaves where the compiler saves space.
 
+use core::ops::Range;
+
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::scalar::Scalar;
@@ -20,15 +22,26 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     b: &SMatrix<T, K, C>,
 ) -> SMatrix<T, R, C> {
     let mut columns = [[T::zero(); R]; C];
+    product_of_nonzero(&a.data.0, &b.data.0, |_| 0..K, &mut columns);
+    SMatrix::from_array_storage(ArrayStorage(columns))
+}
+
+/// Writes `A·B`, by columns, where in a strip of rows A is zero but for the columns `nonzero(rows)`.
+#[inline]
+pub(crate) fn product_of_nonzero<T: Scalar, const R: usize, const K: usize, const C: usize>(
+    a: &[[T; R]; K],
+    b: &[[T; K]; C],
+    nonzero: impl Fn(Range<usize>) -> Range<usize> + Copy,
+    columns: &mut [[T; R]; C],
+) {
     let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
-    let (factors, factors_of_rest) = b.data.0.as_chunks::<COLUMNS>();
+    let (factors, factors_of_rest) = b.as_chunks::<COLUMNS>();
     for (block, factors) in blocks.iter_mut().zip(factors) {
-        multiply(&a.data.0, factors, block);
+        multiply(a, factors, block, nonzero);
     }
     for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
-        multiply(&a.data.0, core::array::from_ref(factors), core::array::from_mut(column));
+        multiply(a, core::array::from_ref(factors), core::array::from_mut(column), nonzero);
     }
-    SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
 /// W columns of the product: strip by strip of their rows, each summed over the columns of `a` in registers.
@@ -37,10 +50,15 @@ fn multiply<T: Scalar, const R: usize, const K: usize, const W: usize>(
     a: &[[T; R]; K],
     factors: &[[T; K]; W],
     result: &mut [[T; R]; W],
+    nonzero: impl Fn(Range<usize>) -> Range<usize>,
 ) {
+    let terms = |rows: Range<usize>| {
+        let range = nonzero(rows);
+        a.iter().enumerate().take(range.end).skip(range.start)
+    };
     for strip in 0..R / STRIP {
         let mut sums = [[T::zero(); STRIP]; W];
-        for (k, column) in a.iter().enumerate() {
+        for (k, column) in terms(strip * STRIP..(strip + 1) * STRIP) {
             if let Some(part) = column.as_chunks::<STRIP>().0.get(strip) {
                 add_multiples(&mut sums, part, factors, k);
             }
@@ -52,7 +70,7 @@ fn multiply<T: Scalar, const R: usize, const K: usize, const W: usize>(
         }
     }
     let mut sums = [[T::zero(); STRIP]; W];
-    for (k, column) in a.iter().enumerate() {
+    for (k, column) in terms(R / STRIP * STRIP..R) {
         add_multiples(&mut sums, column.as_chunks::<STRIP>().1, factors, k);
     }
     for (result, sums) in result.iter_mut().zip(sums) {

@@ -5,6 +5,8 @@ mod common;
 
 #[path = "recursion/closed_forms.rs"]
 mod closed_forms;
+#[path = "recursion/lanes.rs"]
+mod lanes;
 #[path = "recursion/laws.rs"]
 mod laws;
 #[path = "recursion/robots.rs"]
@@ -102,7 +104,7 @@ fn what_is_not_there_is_at_rest() {
     if let Joint::Prismatic(drive, _) = &mut whole.links[2].joint {
         drive.offset = 0.0;
     }
-    let Tree { links, base_mass, base_first, gravity } = whole;
+    let Tree { links, masses, base_mass, base_first, gravity } = whole;
     let [q, v, a] = [[0.4, -1.0, 0.0], [2.0, 0.3, 0.0], [0.8, 0.1, 0.0]].map(SVector::from);
     let tau = whole.inverse_dynamics(&q, &v, &a);
     let [short_q, short_v, short_a] = [q, v, a].map(|x| x.fixed_rows::<2>(0).into_owned());
@@ -114,7 +116,7 @@ fn what_is_not_there_is_at_rest() {
     ] {
         let mut links = links;
         links[2].joint = joint;
-        let short: Tree<f64, 3, 2, 2> = Tree { links, base_mass, base_first, gravity };
+        let short: Tree<f64, 3, 2, 2> = Tree { links, masses, base_mass, base_first, gravity };
         let short_tau = short.inverse_dynamics(&short_q, &short_v, &short_a);
         close(&short_tau, &tau.fixed_rows::<2>(0).into_owned(), TOLERANCE);
         let m = whole.mass_matrix(&q).fixed_view::<2, 2>(0, 0).into_owned();

@@ -1,7 +1,7 @@
 //! The hidden solver against nalgebra, on a chain and on a branched tree.
 #![cfg(feature = "std")]
 
-use dynamics_core::__private::solve::{factor, solve_columns};
+use dynamics_core::__private::solve::Factors;
 use dynamics_core::__private::{forward_from_inverse, inverse_of};
 use dynamics_core::InverseDynamicsDerivatives;
 use dynamics_core::nalgebra::SMatrix;
@@ -11,6 +11,31 @@ const TOLERANCE: f64 = 1e-12;
 
 const CHAIN: [&[usize]; 5] = [&[], &[0], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3]];
 const TREE: [&[usize]; 7] = [&[], &[0], &[1, 0], &[0], &[3, 0], &[4, 3, 0], &[3, 0]];
+
+/// Longer than a strip of lanes, and than a whole number of them.
+const LONG: [&[usize]; 21] = [
+    &[],
+    &[0],
+    &[1, 0],
+    &[2, 1, 0],
+    &[0],
+    &[4, 0],
+    &[5, 4, 0],
+    &[],
+    &[7],
+    &[8, 7],
+    &[9, 8, 7],
+    &[10, 9, 8, 7],
+    &[11, 10, 9, 8, 7],
+    &[7],
+    &[13, 7],
+    &[14, 13, 7],
+    &[],
+    &[16],
+    &[17, 16],
+    &[18, 17, 16],
+    &[19, 18, 17, 16],
+];
 
 fn random_numbers(mut seed: u64) -> impl FnMut() -> f64 {
     move || {
@@ -40,10 +65,11 @@ fn agrees<const N: usize>(ancestors: &[&[usize]; N]) {
     let m = mass_matrix(ancestors, &mut random);
     let mut matrix = || SMatrix::<f64, N, N>::from_fn(|_, _| random());
     let inverse = InverseDynamicsDerivatives { dtau_dq: matrix(), dtau_dv: matrix(), dtau_da: m };
-    let forward = forward_from_inverse(ancestors, inverse_of(ancestors, &m), &inverse);
+    let forward = forward_from_inverse(&inverse);
     assert!((m * forward.da_dq + inverse.dtau_dq).amax() < TOLERANCE);
     assert!((m * forward.da_dv + inverse.dtau_dv).amax() < TOLERANCE);
     assert!((m * forward.da_dtau - SMatrix::identity()).amax() < TOLERANCE);
+    assert_eq!(inverse_of(&m), forward.da_dtau);
 }
 
 #[test]
@@ -51,25 +77,31 @@ fn solves_what_nalgebra_multiplies() {
     agrees(&CHAIN);
     agrees(&TREE);
     agrees(&[&[]]);
+    agrees(&LONG);
 }
 
 #[test]
 fn what_lies_above_the_diagonal_is_not_read() {
-    let mut h = mass_matrix(&TREE, &mut random_numbers(3)).data.0;
-    let mut clean = h;
-    let d_inv = factor(&TREE, &mut clean);
-    for (i, row) in h.iter_mut().enumerate() {
+    let clean = mass_matrix(&TREE, &mut random_numbers(3)).transpose().data.0;
+    let mut rows = clean;
+    for (i, row) in rows.iter_mut().enumerate() {
         row[i + 1..].fill(f64::NAN);
     }
-    assert_eq!(factor(&TREE, &mut h), d_inv);
-    let (mut x, mut y) = ([[1.0, 2.0]; 7], [[1.0, 2.0]; 7]);
-    solve_columns(&TREE, &h, &d_inv, &mut x);
-    solve_columns(&TREE, &clean, &d_inv, &mut y);
-    assert_eq!(x, y);
+    let solved = |m: &[[f64; 7]; 7]| {
+        let (mut x, mut inverse) = ([[0.0; 7]; 2], [[0.0; 7]; 7]);
+        Factors::of(m).minus_solve(&[[1.0; 7], [2.0; 7]], &mut x);
+        Factors::of(m).inverse(&mut inverse);
+        (x, inverse)
+    };
+    assert_eq!(solved(&rows), solved(&clean));
+    assert!(solved(&rows).1.as_flattened().iter().all(|x| x.is_finite()));
 }
 
 #[test]
 fn nothing_to_solve_is_no_error() {
-    let mut x: [[f64; 3]; 0] = [];
-    solve_columns(&[], &[], &[], &mut x);
+    let mut no_columns: [[f64; 7]; 0] = [];
+    Factors::of(&[[1.0; 7]; 7]).minus_solve(&[], &mut no_columns);
+    let mut empty: [[f64; 0]; 3] = [[]; 3];
+    Factors::of(&[]).minus_solve(&[[]; 3], &mut empty);
+    assert_eq!(empty, [[]; 3]);
 }

@@ -52,7 +52,7 @@ impl Compiled<'_> {
         self.methods.iter().find(|compiled| compiled.method == method).and_then(|compiled| {
             match &compiled.plan {
                 Plan::StraightLine { program, .. } => Some(program),
-                Plan::Loops { .. } | Plan::Table { .. } => None,
+                Plan::Loops | Plan::Table { .. } => None,
             }
         })
     }
@@ -61,7 +61,7 @@ impl Compiled<'_> {
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
             Plan::StraightLine { program, .. } => Some(program),
-            Plan::Loops { .. } | Plan::Table { .. } => None,
+            Plan::Loops | Plan::Table { .. } => None,
         });
         std::iter::once(&self.companion.preparation).chain(&self.table).chain(of_methods)
     }
@@ -86,7 +86,10 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
     let equations: Vec<Equation<'g>> =
         straight.map(|method| Equation { method, blocks: cheapest(&derivation, method) }).collect();
-    let table = methods.iter().any(|&method| plan.form(method) == Form::Table).then(|| table::entries(model));
+    let table = methods
+        .iter()
+        .any(|&method| matches!(plan.form(method), Form::Table | Form::Lanes))
+        .then(|| table::entries(model));
     let inputs = derivation.inputs;
     let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
@@ -101,13 +104,12 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 (Plan::StraightLine { blocks, program }, cost)
             }
             Form::Loops => {
-                let ancestors = plan.ancestors.clone();
-                let cost = cost_of_loops(method, &ancestors, &compiled);
-                (Plan::Loops { ancestors }, cost)
+                let cost = cost_of_loops(method, inputs.dof, &compiled);
+                (Plan::Loops, cost)
             }
-            Form::Table => {
+            form @ (Form::Table | Form::Lanes) => {
                 let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));
-                (Plan::Table { frame }, plan.cost_of_table(method))
+                (Plan::Table { frame, in_lanes: form == Form::Lanes }, plan.cost_of_table(method))
             }
         };
         compiled.push(CompiledMethod { method, cost, plan });
@@ -127,20 +129,20 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
 }
 
 /// What the loops of the run time cost, with the methods that they call.
-fn cost_of_loops(method: Method, ancestors: &[Vec<usize>], compiled: &[CompiledMethod<'_>]) -> Cost {
+fn cost_of_loops(method: Method, dof: usize, compiled: &[CompiledMethod<'_>]) -> Cost {
     let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
-    let n = ancestors.len();
-    let pairs: usize = ancestors.iter().map(Vec::len).sum();
-    let mut cost = match method {
-        Method::InverseMassMatrix => Cost {
-            multiplications: count(n * (3 * pairs + n) + 2 * pairs),
-            additions: count(n * (3 * pairs + n)),
-            divisions: count(n),
-            ..Cost::default()
-        },
-        _ => {
-            Cost { multiplications: count(2 * n * n * n), additions: count(2 * n * n * n), ..Cost::default() }
-        }
+    // A factorisation and the inverse of the factor are a sixth of n³ each, and half of it each product with the factor:
+    // one of them for M⁻¹, two for each matrix that is solved for.
+    let sixths = match method {
+        Method::InverseMassMatrix => 2 + 3,
+        _ => 2 + 3 + 12,
+    };
+    let of_products = count(sixths * dof * dof * dof / 6);
+    let mut cost = Cost {
+        multiplications: of_products,
+        additions: of_products,
+        divisions: count(dof),
+        ..Cost::default()
     };
     for &part in calls(method) {
         // Methods come after those that they call.

@@ -8,7 +8,8 @@ use super::{Cost, Program};
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
 use crate::mechanics::equations::{Block, Method, Trait};
-use crate::model::{Model, Passive};
+use crate::model::{Drive, Link, Model, Passive};
+use crate::spatial::Scalar as _;
 use crate::symbolic::Expr;
 
 /// The most statements that one method may have.
@@ -20,6 +21,11 @@ const LONGEST_STRAIGHT_INVERSE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
 
+/// The fewest joints whose Coriolis matrix and derivatives are computed in lanes: a straight line is as fast there.
+const FEWEST_IN_LANES: usize = 12;
+/// The same of the mass matrix, which takes a third of the statements.
+const FEWEST_MASSES_IN_LANES: usize = 20;
+
 /// How a method is computed.
 pub enum Plan<'g> {
     /// By a program of its own.
@@ -29,16 +35,15 @@ pub enum Plan<'g> {
         /// The operations.
         program: Program,
     },
-    /// By the run time's loops over rows and columns: derivatives of forward dynamics from `M⁻¹` and the derivatives of
-    /// inverse dynamics, and `M⁻¹` from `M`.
-    Loops {
-        /// The joints between each joint and the base.
-        ancestors: Vec<Vec<usize>>,
-    },
+    /// By the run time's loops over rows and columns: derivatives of forward dynamics from those of inverse dynamics,
+    /// and `M⁻¹` from `M`.
+    Loops,
     /// By the run time's recursion over a table of links.
     Table {
         /// For the kinematics of a frame: its link, and the program of its pose in that link.
         frame: Option<(Option<usize>, Program)>,
+        /// Whether in lanes over links.
+        in_lanes: bool,
     },
 }
 
@@ -48,15 +53,17 @@ pub(super) enum Form {
     StraightLine,
     Loops,
     Table,
+    Lanes,
 }
 
 /// How each method of a robot is computed.
 pub(super) struct Plans {
     /// The joints between each joint and the base.
-    pub(super) ancestors: Vec<Vec<usize>>,
+    ancestors: Vec<Vec<usize>>,
     frames: usize,
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
+    suits_lanes: bool,
 }
 
 impl Plans {
@@ -69,7 +76,8 @@ impl Plans {
         let depth = |link: usize| std::iter::successors(Some(link), |&k| links[k].parent).count();
         let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
-        Self { frames: model.tree.frames.len(), frame_joints, ancestors }
+        let suits_lanes = suits_lanes(links);
+        Self { frames: model.tree.frames.len(), frame_joints, ancestors, suits_lanes }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
@@ -78,6 +86,9 @@ impl Plans {
             _ => self.statements(method) > LONGEST_STRAIGHT_LINE,
         };
         match method {
+            _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.ancestors.len() >= fewest) => {
+                Form::Lanes
+            }
             _ if too_long => Form::Table,
             Method::ForwardDynamicsDerivatives if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE => {
                 Form::Loops
@@ -87,6 +98,18 @@ impl Plans {
             }
             _ => Form::StraightLine,
         }
+    }
+
+    /// How many joints it takes for a method to be sooner done in lanes, if it can be.
+    fn fewest_in_lanes(&self, method: Method) -> Option<usize> {
+        let fewest = match method {
+            Method::MassMatrix => FEWEST_MASSES_IN_LANES,
+            Method::CoriolisMatrix | Method::EquationsOfMotion | Method::InverseDynamicsDerivatives => {
+                FEWEST_IN_LANES
+            }
+            _ => return None,
+        };
+        self.suits_lanes.then_some(fewest)
     }
 
     /// About how many statements a straight line would have, as measured on general chains and trees.
@@ -132,6 +155,20 @@ impl Plans {
         let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);
         Cost { multiplications: count, additions: count, sines_and_cosines: joints, ..Cost::default() }
     }
+}
+
+/// Whether the run time can compute the robot's matrices in lanes over links.
+fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
+    let is_own = |(k, link): (usize, &Link<Expr<'_>>)| {
+        let Drive { q, v, ratio, offset } = link.drive;
+        link.motion.speeds() == 1 && (q, v) == (k, k) && ratio.as_sign() == Some(1) && offset.is_zero()
+    };
+    // In the order of a walk each link's parent is on the way from the link before it to the base.
+    let follows = |k: usize| {
+        let before = k.checked_sub(1);
+        links[k].parent.is_none_or(|p| std::iter::successors(before, |&b| links[b].parent).any(|b| b == p))
+    };
+    links.iter().enumerate().all(is_own) && (0..links.len()).all(follows)
 }
 
 /// The methods to compile: those named and what they call, or all that the robot has.
@@ -180,9 +217,7 @@ fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
 /// What a method in the form of loops calls.
 pub(super) fn calls(method: Method) -> &'static [Method] {
     match method {
-        Method::ForwardDynamicsDerivatives => {
-            &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives, Method::InverseMassMatrix]
-        }
+        Method::ForwardDynamicsDerivatives => &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives],
         Method::InverseMassMatrix => &[Method::MassMatrix],
         _ => &[],
     }

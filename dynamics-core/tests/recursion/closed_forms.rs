@@ -5,7 +5,7 @@ use dynamics_core::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use dynamics_core::prelude::*;
 
 use crate::common::{DoublePendulum, G, Pendulum, Tool0};
-use crate::robots::{AXES, AddPoint, INERT, bare, by_rows, drive, rows};
+use crate::robots::{AXES, AddPoint, INERT, bare, by_rows, drive, massless, rows};
 use crate::{TOLERANCE, close, close_numbers};
 
 /// z along the world's x, −y downwards.
@@ -18,7 +18,8 @@ fn pendulums<const N: usize>(m: f64, l: f64) -> Tree<f64, N, N, N> {
         position: if k == 0 { [0.0; 3] } else { [0.0, -l, 0.0] },
         ..bare(k.checked_sub(1), Joint::Revolute(drive(k), INERT))
     });
-    let mut tree = Tree { links, base_mass: 0.0, base_first: [0.0; 3], gravity: [0.0, 0.0, -G] };
+    let mut tree =
+        Tree { links, masses: massless(), base_mass: 0.0, base_first: [0.0; 3], gravity: [0.0, 0.0, -G] };
     (0..N).for_each(|k| tree.add_point(Some(k), m, Vector3::new(0.0, -l, 0.0)));
     tree
 }
@@ -72,7 +73,8 @@ fn body<const NL: usize, const NQ: usize, const NV: usize>(
     joints: [Joint<f64>; NL],
 ) -> Tree<f64, NL, NQ, NV> {
     let links = core::array::from_fn(|k| bare(k.checked_sub(1), joints[k]));
-    let mut tree = Tree { links, base_mass: 0.0, base_first: [0.0; 3], gravity: [0.0, 0.0, -G] };
+    let mut tree =
+        Tree { links, masses: massless(), base_mass: 0.0, base_first: [0.0; 3], gravity: [0.0, 0.0, -G] };
     let arms = [[0.5, 0.1, -0.2], [-0.3, 0.6, 0.1], [-0.2, -0.7, 0.1]].map(Vector3::from);
     for arm in arms {
         tree.add_point(Some(NL - 1), MASS / 3.0, Vector3::from(CENTER) + arm);
@@ -82,7 +84,7 @@ fn body<const NL: usize, const NQ: usize, const NV: usize>(
 
 /// Its inertia about the origin of its link.
 fn inertia<const NL: usize, const NQ: usize, const NV: usize>(tree: &Tree<f64, NL, NQ, NV>) -> Matrix3<f64> {
-    let [xx, yy, zz, xy, xz, yz] = tree.links[NL - 1].second;
+    let [xx, yy, zz, xy, xz, yz] = tree.masses.second.map(|x| x[NL - 1]);
     Matrix3::new(yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy)
 }
 

@@ -1,6 +1,6 @@
 //! Random robots, as the recursion sees them and as the point masses that they are made of.
 
-use dynamics_core::__private::recursion::{Drive, Friction, Joint, Link, Passive, Tree};
+use dynamics_core::__private::recursion::{Drive, Friction, Joint, Link, Masses, Passive, Tree};
 use dynamics_core::nalgebra::{Matrix3, Quaternion, Rotation3, Vector3};
 use dynamics_core::prelude::*;
 
@@ -42,7 +42,12 @@ pub(crate) const INERT: Passive<f64> =
 
 /// A link in its parent's place, without mass.
 pub(crate) fn bare(parent: Option<usize>, joint: Joint<f64>) -> Link<f64> {
-    Link { parent, joint, rotation: AXES, position: [0.0; 3], mass: 0.0, first: [0.0; 3], second: [0.0; 6] }
+    Link { parent, joint, rotation: AXES, position: [0.0; 3] }
+}
+
+/// No mass anywhere.
+pub(crate) const fn massless<const NL: usize>() -> Masses<f64, NL> {
+    Masses { mass: [0.0; NL], first: [[0.0; NL]; 3], second: [[0.0; NL]; 6] }
 }
 
 impl<const NL: usize, const NQ: usize, const NV: usize> Robot<NL, NQ, NV> {
@@ -77,7 +82,7 @@ impl<const NL: usize, const NQ: usize, const NV: usize> Robot<NL, NQ, NV> {
             }
         });
         let gravity = [0.7, -0.4, -9.81];
-        let mut tree = Tree { links, base_mass: 0.0, base_first: [0.0; 3], gravity };
+        let mut tree = Tree { links, masses: massless(), base_mass: 0.0, base_first: [0.0; 3], gravity };
         for &(owner, m, r) in &points {
             tree.add_point(owner, m, r);
         }
@@ -272,11 +277,11 @@ impl<const NL: usize, const NQ: usize, const NV: usize> AddPoint for Tree<f64, N
             self.base_first.iter_mut().zip([x, y, z]).for_each(|(h, x)| *h += m * x);
             return;
         };
-        let link = &mut self.links[owner];
-        link.mass += m;
-        link.first.iter_mut().zip([x, y, z]).for_each(|(h, x)| *h += m * x);
+        let masses = &mut self.masses;
+        masses.mass[owner] += m;
+        masses.first.iter_mut().zip([x, y, z]).for_each(|(h, x)| h[owner] += m * x);
         let products = [x * x, y * y, z * z, x * y, x * z, y * z];
-        link.second.iter_mut().zip(products).for_each(|(sigma, x)| *sigma += m * x);
+        masses.second.iter_mut().zip(products).for_each(|(sigma, x)| sigma[owner] += m * x);
     }
 }
 
@@ -303,10 +308,12 @@ pub(crate) fn lifted<T: Scalar, const NL: usize, const NQ: usize, const NV: usiz
             },
             rotation: link.rotation.map(|row| row.map(T::of)),
             position: link.position.map(T::of),
-            mass: T::of(link.mass),
-            first: link.first.map(T::of),
-            second: link.second.map(T::of),
         }),
+        masses: Masses {
+            mass: tree.masses.mass.map(T::of),
+            first: tree.masses.first.map(|x| x.map(T::of)),
+            second: tree.masses.second.map(|x| x.map(T::of)),
+        },
         base_mass: T::of(tree.base_mass),
         base_first: tree.base_first.map(T::of),
         gravity: tree.gravity.map(T::of),

@@ -28,8 +28,9 @@ pub(super) fn write(
     let _ = writeln!(text, "    /// {}", headline(*method, context.sizes.inputs.dof));
     let operations = describe(*cost);
     let _ = match plan {
-        Plan::Table { .. } => {
-            writeln!(text, "    ///\n    /// By recursion over a table of links: about {operations}.")
+        Plan::Table { in_lanes, .. } => {
+            let how = if *in_lanes { ", in lanes" } else { "" };
+            writeln!(text, "    ///\n    /// By recursion over a table of links{how}: about {operations}.")
         }
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
@@ -37,11 +38,11 @@ pub(super) fn write(
         Plan::StraightLine { blocks, program } => {
             text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
         }
-        Plan::Loops { ancestors } => {
-            text.push_str(&by_loops(*method, ancestors, scalar, context.sizes));
+        Plan::Loops => text.push_str(&by_loops(*method, scalar, context.sizes)),
+        Plan::Table { frame: None, in_lanes } => {
+            text.push_str(&by_table(*method, *in_lanes, scalar, context.sizes));
         }
-        Plan::Table { frame: None } => text.push_str(&by_table(*method, scalar, context.sizes)),
-        Plan::Table { frame: Some((link, program)) } => {
+        Plan::Table { frame: Some((link, program)), .. } => {
             text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
         }
     }
@@ -75,10 +76,11 @@ fn straight_line(
 }
 
 /// The body that leaves everything to the run time's recursion.
-fn by_table(method: Method, scalar: &str, sizes: Sizes) -> String {
+fn by_table(method: Method, in_lanes: bool, scalar: &str, sizes: Sizes) -> String {
     let arguments = typed_arguments(method, scalar, sizes);
+    let lanes = if in_lanes { ".in_lanes()" } else { "" };
     format!(
-        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table().{0}({2})\n    }}\n",
+        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table(){lanes}.{0}({2})\n    }}\n",
         method.name(),
         return_type(method, scalar, sizes),
         pass_on(method)
@@ -116,24 +118,16 @@ fn frame_by_table(
 }
 
 /// The body that leaves the matrices to the run time's loops.
-fn by_loops(method: Method, ancestors: &[Vec<usize>], scalar: &str, sizes: Sizes) -> String {
+fn by_loops(method: Method, scalar: &str, sizes: Sizes) -> String {
     let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
-    let mut text = format!("    fn {}(&self{arguments}) -> {returned} {{\n", method.name());
-    let _ = writeln!(text, "        const ANCESTORS: [&[usize]; {}] = [", ancestors.len());
-    for ancestors in ancestors {
-        let list: Vec<String> = ancestors.iter().map(usize::to_string).collect();
-        let _ = writeln!(text, "            &[{}],", list.join(", "));
-    }
-    text.push_str("        ];\n");
-    text.push_str(match method {
-        Method::InverseMassMatrix => "        inverse_of(&ANCESTORS, &self.mass_matrix(q))\n    }\n",
+    let body = match method {
+        Method::InverseMassMatrix => "        inverse_of(&self.mass_matrix(q))\n",
         _ => {
             "        let a = self.forward_dynamics(q, v, tau);\n        \
-             let inverse = self.inverse_dynamics_derivatives(q, v, &a);\n        \
-             forward_from_inverse(&ANCESTORS, self.inverse_mass_matrix(q), &inverse)\n    }\n"
+             forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a))\n"
         }
-    });
-    text
+    };
+    format!("    fn {}(&self{arguments}) -> {returned} {{\n{body}    }}\n", method.name())
 }
 
 /// Whether the method belongs to a frame, and is given the robot.

@@ -37,22 +37,31 @@ impl Emitter<'_, '_> {
             let _ = writeln!(
                 text,
                 "                    recursion::Link {{ parent: {:?}, joint: {}, rotation: [[{}], [{}], [{}]], \
-                 position: [{}], mass: {}, first: [{}], second: [{}] }},",
+                 position: [{}] }},",
                 link.parent,
                 joint(link, &numbers[22..]),
                 list(0, 3),
                 list(3, 6),
                 list(6, 9),
-                list(9, 12),
-                numbers[12],
-                list(13, 16),
-                list(16, 22)
+                list(9, 12)
             );
         }
-        let rest = &numbers[NUMBERS_PER_LINK * links.len()..];
+        let (of_links, rest) = numbers.split_at(NUMBERS_PER_LINK * links.len());
+        let across = |k: usize| {
+            let numbers: Vec<&str> = of_links.chunks(NUMBERS_PER_LINK).map(|numbers| numbers[k]).collect();
+            format!("[{}]", numbers.join(", "))
+        };
+        let several = |from: usize, to: usize| (from..to).map(across).collect::<Vec<_>>().join(", ");
         let _ = writeln!(
             text,
-            "                ],\n                base_mass: {},\n                base_first: [{}],\n                gravity: [{}],\n            }}\n        }}\n    }}\n",
+            "                ],\n                masses: recursion::Masses {{ mass: {}, first: [{}], second: [{}] }},",
+            across(12),
+            several(13, 16),
+            several(16, 22)
+        );
+        let _ = writeln!(
+            text,
+            "                base_mass: {},\n                base_first: [{}],\n                gravity: [{}],\n            }}\n        }}\n    }}\n",
             rest[0],
             rest[1..4].join(", "),
             rest[4..7].join(", ")

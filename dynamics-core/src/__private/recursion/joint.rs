@@ -55,9 +55,8 @@ impl<T: Scalar> Link<T> {
         let (rotation, position) = (Matrix(self.rotation), Vector(self.position));
         match self.joint {
             Joint::Revolute(drive, _) => {
-                let (s, c) = drive.position(q).sin_cos();
-                let about_z = |[x, y, z]: [T; 3]| [x.mul_add(c, y * s), y.mul_add(c, -(x * s)), z];
-                (Matrix(rotation.0.map(about_z)), position)
+                let (sine, cosine) = drive.position(q).sin_cos();
+                (rotation.about_z(sine, cosine), position)
             }
             Joint::Prismatic(drive, _) => {
                 (rotation, position + rotation.third_column().scaled(drive.position(q)))

@@ -19,6 +19,7 @@ mod factor;
 mod forward;
 mod frames;
 mod joint;
+mod lanes;
 mod motion;
 mod passive;
 mod place;
@@ -30,11 +31,15 @@ mod vector;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
 
+pub use lanes::InLanes;
+
 /// A robot of `NL` moving links with `NQ` coordinates and `NV` speeds.
 #[derive(Clone, Copy, Debug)]
 pub struct Tree<T, const NL: usize, const NQ: usize, const NV: usize> {
     /// The moving links, parents before children.
     pub links: [Link<T>; NL],
+    /// Their masses.
+    pub masses: Masses<T, NL>,
     /// Mass at rest in the world, kg: it moves nothing, and still has potential energy.
     pub base_mass: T,
     /// The first moment of that mass about the world's origin, kg·m.
@@ -55,12 +60,17 @@ pub struct Link<T> {
     pub rotation: [[T; 3]; 3],
     /// `p_PJ`: the origin of the link's frame in the parent's frame while the joint is at zero, m.
     pub position: [T; 3],
-    /// The mass, kg; a link between the parts of a composed joint has none.
-    pub mass: T,
-    /// The first moment `h = ∫r dm` about the origin of the link's frame, in its axes, kg·m.
-    pub first: [T; 3],
-    /// The second moment `Σ = ∫r rᵀ dm` likewise, kg·m²: xx, yy, zz, xy, xz, yz.
-    pub second: [T; 6],
+}
+
+/// The links' own masses, number by number, so that loops over links run in lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct Masses<T, const NL: usize> {
+    /// The masses, kg; a link between the parts of a composed joint has none.
+    pub mass: [T; NL],
+    /// The first moments `h = ∫r dm` about the origins of the links' frames, in their axes, kg·m: x, y, z.
+    pub first: [[T; NL]; 3],
+    /// The second moments `Σ = ∫r rᵀ dm` likewise, kg·m²: xx, yy, zz, xy, xz, yz.
+    pub second: [[T; NL]; 6],
 }
 
 /// How a link moves on its parent.

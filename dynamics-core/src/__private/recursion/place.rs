@@ -8,7 +8,7 @@ use core::ops::Add;
 use super::joint::Columns;
 use super::screw::{Twist, Wrench};
 use super::vector::{Matrix, Vector};
-use super::{Link, Tree};
+use super::{Masses, Tree, entry};
 use crate::scalar::Scalar;
 
 /// A link at a configuration.
@@ -36,23 +36,27 @@ impl<T: Scalar> Body<T> {
     }
 }
 
-impl<T: Scalar> Link<T> {
-    fn moments(&self) -> Moments<T> {
-        Moments { mass: self.mass, first: Vector(self.first), second: Matrix::symmetric(self.second) }
+impl<T: Scalar, const NL: usize> Masses<T, NL> {
+    /// Those of a link, in its own axes.
+    #[inline(always)]
+    pub(super) fn of(&self, k: usize) -> Moments<T> {
+        let first = Vector(self.first.each_ref().map(|x| entry(x, k)));
+        let second = Matrix::symmetric(self.second.each_ref().map(|x| entry(x, k)));
+        Moments { mass: entry(&self.mass, k), first, second }
     }
 }
 
 impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// The links at the configuration `q`.
     pub(super) fn place(&self, q: &[T; NQ]) -> [Body<T>; NL] {
-        self.base_to_tip(&self.links, Body::world(), |link, parent| {
+        self.base_to_tip(self.links.iter().enumerate(), Body::world(), |(k, link), parent| {
             let (rotation, position) = link.pose_in_parent(q);
             let rotation = parent.rotation.product(rotation);
             Body {
                 columns: link.joint.columns(rotation.transpose().0.map(Vector)),
                 rotation,
                 offset: parent.rotation.times(position),
-                moments: link.moments().turned(rotation),
+                moments: self.masses.of(k).turned(rotation),
             }
         })
     }

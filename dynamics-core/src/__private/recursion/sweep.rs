@@ -84,13 +84,6 @@ pub(super) fn zeros<T: Scalar, const N: usize>() -> SMatrix<T, N, N> {
     columns([[T::zero(); N]; N])
 }
 
-/// The identity.
-pub(super) fn identity<T: Scalar, const N: usize>() -> SMatrix<T, N, N> {
-    let mut m = zeros();
-    (0..N).for_each(|k| add_entry(&mut m, k, k, T::one()));
-    m
-}
-
 /// Adds to an entry, if there is one.
 #[inline(always)]
 pub(super) fn add<T: AddAssign>(values: &mut [T], index: usize, value: T) {

@@ -21,6 +21,13 @@ impl<T: Scalar> Vector<T> {
         Self(self.0.map(|x| x * k))
     }
 
+    /// `self + k·other`
+    #[inline(always)]
+    pub(super) fn plus_scaled(self, other: Self, k: T) -> Self {
+        let ([a, b, c], [x, y, z]) = (self.0, other.0);
+        Self([x.mul_add(k, a), y.mul_add(k, b), z.mul_add(k, c)])
+    }
+
     /// `self · other`
     #[inline(always)]
     pub(super) fn dot(self, other: Self) -> T {
@@ -94,6 +101,12 @@ impl<T: Scalar> Matrix<T> {
             [twice(x, y, w, z), diagonal(x, z), twice(y, z, -w, x)],
             [twice(x, z, -w, y), twice(y, z, w, x), diagonal(x, y)],
         ])
+    }
+
+    /// `self·R_z`, the rotation about z by an angle with this sine and cosine.
+    #[inline(always)]
+    pub(super) fn about_z(self, sine: T, cosine: T) -> Self {
+        Self(self.0.map(|[x, y, z]| [x.mul_add(cosine, y * sine), y.mul_add(cosine, -(x * sine)), z]))
     }
 
     /// The symmetric matrix of the entries xx, yy, zz, xy, xz, yz.

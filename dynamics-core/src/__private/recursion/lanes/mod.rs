@@ -1,0 +1,89 @@
+//! The square matrices of long robots, computed in lanes.
+//!
+//! What the links need one by one stands side by side, number by number, so that loops over links run in vector
+//! lanes; what goes from link to link along the tree is carried in registers; and the entries of a matrix, one for each
+//! pair of joints of which one hangs on the other, are computed in tiles of four by four. All in world axes, each
+//! quantity at the origin of its own link: only the arms between two links are added, so that no precision is lost
+//! far from the base.
+//!
+//! For trees whose every link has one degree of freedom, with the coordinate and the speed of its own index, and
+//! whose links stand in the order of a walk: right after each link comes all that hangs on it.
+//!
+//! At 32 joints this is two to three times as fast as a straight line, whose code is too long for the cache.
+
+mod bodies;
+mod matrices;
+mod motion;
+mod pairs;
+mod place;
+
+use super::vector::Vector;
+use super::{Joint, Tree};
+use crate::scalar::Scalar;
+
+/// A tree of which link `k` has coordinate `k`, speed `k` and no other, and stands right before its descendants.
+pub struct InLanes<'t, T, const N: usize> {
+    tree: &'t Tree<T, N, N, N>,
+}
+
+impl<T: Scalar, const N: usize> Tree<T, N, N, N> {
+    /// The matrices in lanes. The links must be as [`InLanes`] says: the compiler sees to it.
+    #[inline(always)]
+    pub fn in_lanes(&self) -> InLanes<'_, T, N> {
+        InLanes { tree: self }
+    }
+}
+
+impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+    fn parent(&self, k: usize) -> Option<usize> {
+        self.tree.links.get(k)?.parent
+    }
+
+    fn turns(&self, k: usize) -> bool {
+        self.tree.links.get(k).is_some_and(|link| matches!(link.joint, Joint::Revolute(..)))
+    }
+}
+
+/// Three numbers for each of N links.
+#[derive(Clone, Copy)]
+struct Vectors<T, const N: usize>([[T; N]; 3]);
+
+impl<T: Scalar, const N: usize> Vectors<T, N> {
+    #[inline(always)]
+    fn zero() -> Self {
+        Self([[T::zero(); N]; 3])
+    }
+
+    #[inline(always)]
+    fn at(&self, k: usize) -> Vector<T> {
+        let [x, y, z] = &self.0;
+        Vector([at(x, k), at(y, k), at(z, k)])
+    }
+
+    #[inline(always)]
+    fn set(&mut self, k: usize, value: Vector<T>) {
+        for (x, value) in self.0.iter_mut().zip(value.0) {
+            set(x, k, value);
+        }
+    }
+}
+
+/// Six numbers of one link.
+#[inline(always)]
+fn six_at<T: Scalar, const N: usize>([a, b, c, d, e, f]: &[[T; N]; 6], k: usize) -> [T; 6] {
+    [at(a, k), at(b, k), at(c, k), at(d, k), at(e, k), at(f, k)]
+}
+
+/// An entry that is there.
+#[inline(always)]
+fn at<T: Scalar>(x: &[T], k: usize) -> T {
+    x.get(k).copied().unwrap_or_else(T::zero)
+}
+
+/// Writes an entry that is there.
+#[inline(always)]
+fn set<T>(x: &mut [T], k: usize, value: T) {
+    if let Some(x) = x.get_mut(k) {
+        *x = value;
+    }
+}

@@ -1,0 +1,88 @@
+//! How the links move.
+
+use super::place::Placed;
+use super::{InLanes, Vectors, at};
+use crate::__private::recursion::screw::Twist;
+use crate::__private::recursion::vector::Vector;
+use crate::scalar::Scalar;
+
+/// A twist for each link, about its origin.
+pub(super) struct TwistsInLanes<T, const N: usize> {
+    pub(super) angular: Vectors<T, N>,
+    pub(super) linear: Vectors<T, N>,
+}
+
+impl<T: Scalar, const N: usize> TwistsInLanes<T, N> {
+    pub(super) fn zero() -> Self {
+        Self { angular: Vectors::zero(), linear: Vectors::zero() }
+    }
+
+    #[inline(always)]
+    pub(super) fn at(&self, k: usize) -> Twist<T> {
+        Twist { angular: self.angular.at(k), linear: self.linear.at(k) }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, k: usize, twist: Twist<T>) {
+        self.angular.set(k, twist.angular);
+        self.linear.set(k, twist.linear);
+    }
+}
+
+impl<T: Scalar, const N: usize> Placed<T, N> {
+    /// The unit motion of joint `k`.
+    #[inline(always)]
+    pub(super) fn twist(&self, k: usize) -> Twist<T> {
+        Twist { angular: self.turns.at(k), linear: self.slides.at(k) }
+    }
+}
+
+impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+    /// The velocities for joint speeds `v`.
+    pub(super) fn velocities(&self, placed: &Placed<T, N>, v: &[T; N]) -> TwistsInLanes<T, N> {
+        let mut velocities = TwistsInLanes::zero();
+        let mut last = (N, Twist::zero());
+        for (k, offset) in placed.offsets.iter().enumerate() {
+            let parent = match self.parent(k) {
+                None => Twist::zero(),
+                Some(parent) if parent == last.0 => last.1,
+                Some(parent) => velocities.at(parent),
+            };
+            let velocity = parent.carried(*offset) + placed.twist(k).scaled(at(v, k));
+            velocities.set(k, velocity);
+            last = (k, velocity);
+        }
+        velocities
+    }
+
+    /// The velocities, and the accelerations of the links' origins, less gravity, for joint accelerations `a`.
+    pub(super) fn motions(
+        &self,
+        placed: &Placed<T, N>,
+        v: &[T; N],
+        a: &[T; N],
+    ) -> (TwistsInLanes<T, N>, TwistsInLanes<T, N>) {
+        let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
+        let base = (Twist::zero(), Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) });
+        let mut last = (N, base);
+        for (k, offset) in placed.offsets.iter().enumerate() {
+            let (velocity, acceleration) = match self.parent(k) {
+                None => base,
+                Some(parent) if parent == last.0 => last.1,
+                Some(parent) => (velocities.at(parent), accelerations.at(parent)),
+            };
+            let (unit, w) = (placed.twist(k), velocity.angular);
+            let joint = unit.scaled(at(v, k));
+            let drift = Twist {
+                angular: w.cross(joint.angular),
+                linear: w.cross(w.cross(*offset) + joint.linear + joint.linear),
+            };
+            let velocity = velocity.carried(*offset) + joint;
+            let acceleration = acceleration.carried(*offset) + drift + unit.scaled(at(a, k));
+            velocities.set(k, velocity);
+            accelerations.set(k, acceleration);
+            last = (k, (velocity, acceleration));
+        }
+        (velocities, accelerations)
+    }
+}
