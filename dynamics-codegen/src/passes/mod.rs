@@ -2,6 +2,7 @@
 
 mod compile;
 mod hoist;
+mod latency;
 mod parameters;
 mod plan;
 mod program;
