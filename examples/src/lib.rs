@@ -17,3 +17,7 @@ mod architecture {}
 #[cfg(doctest)]
 #[doc = include_str!("../../CHANGELOG.md")]
 mod changelog {}
+
+#[cfg(doctest)]
+#[doc = include_str!("../../COMPARE.md")]
+mod compare {}

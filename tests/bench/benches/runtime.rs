@@ -1,87 +1,76 @@
-//! How long each method takes: `cargo bench -p dynamics-bench`.
+//! How long each method takes: `cargo bench -p dynamics-bench --bench runtime [-- ROBOT…]`.
 //!
-//! One line a robot and method: robot, degrees of freedom, `ours`, algorithm by the peers' name, minimum and
-//! median nanoseconds a call, over batches that cycle through 256 random states. `peers/race.sh` runs it beside
-//! Pinocchio and CasADi. Set `RUSTFLAGS="-C target-cpu=native"` for what the machine can do.
+//! Least nanoseconds a call: ours; the double pendulum's closed form, written by hand; and `M⁻¹·(τ − h)` by nalgebra's
+//! factorisation of Cholesky, with our M and h. Set `RUSTFLAGS="-C target-cpu=native"` for what the machine can do;
+//! `peers/race.sh` runs ours beside Pinocchio and CasADi.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
 
-use std::hint::black_box;
-use std::time::Instant;
-
-use dynamics_bench::{industrial, models};
+use dynamics_bench::contest::{Entries, ROBOTS, Stage, State, Visitor, enter_all, least, states, visit};
+use dynamics_bench::industrial::planar_2dof::Planar2Dof;
+use dynamics_bench::textbook::DoublePendulum;
 use dynamics_core::prelude::*;
-
-const STATES: usize = 256;
-const BATCHES: usize = 400;
 
 fn main() {
     let wanted: Vec<String> =
         std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
-    let wants = |name: &str| wanted.is_empty() || wanted.iter().any(|wanted| wanted == name);
-    if wants("double_pendulum") {
-        race("double_pendulum", &industrial::planar_2dof::Planar2Dof);
-    }
-    if wants("cartpole") {
-        race("cartpole", &industrial::reference_cart_pole::ReferenceCartPole);
-    }
-    if wants("puma560") {
-        race("puma560", &industrial::puma560::Puma560);
-    }
-    if wants("iiwa14") {
-        race("iiwa14", &industrial::iiwa14::Iiwa14);
-    }
-    if wants("hyq") {
-        race("hyq", &models::Hyq);
-    }
-    if wants("chain4") {
-        race("chain4", &models::Chain4);
-    }
-    if wants("chain16") {
-        race("chain16", &models::Chain16);
-    }
-    if wants("chain32") {
-        race("chain32", &models::Chain32);
+    println!("| robot | output | ours, ns | by hand, ns | nalgebra's Cholesky, ns |\n|---|---|--:|--:|--:|");
+    for (name, _) in ROBOTS {
+        if wanted.is_empty() || wanted.iter().any(|wanted| wanted == name) {
+            visit(name, &mut Table);
+        }
     }
 }
 
-/// Coordinates, speeds, and accelerations or forces.
-type States<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>, SVector<f64, NV>);
+struct Table;
 
-/// Times every method of a robot.
-fn race<R, const NQ: usize, const NV: usize>(name: &str, robot: &R)
-where
-    R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>,
-{
-    let mut seed = 2026_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+impl Visitor for Table {
+    fn visit<R, const NQ: usize, const NV: usize>(&mut self, name: &str, robot: &R)
+    where
+        R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>,
+    {
+        let states = states(robot);
+        let factored = least(&states, |s| {
+            let cholesky = robot.mass_matrix(&s.q).cholesky();
+            cholesky.map(|factor| factor.solve(&(s.a - robot.bias_forces(&s.q, &s.v))))
+        });
+        let mut beside = vec![("FD", None, Some(factored))];
+        if name == "double_pendulum" {
+            beside = by_hand(factored);
+        }
+        enter_all(robot, &mut Rows { name, states: &states, beside });
+    }
+}
+
+/// An output, its time by hand, and by Cholesky's factorisation.
+type Beside = (&'static str, Option<f64>, Option<f64>);
+
+fn by_hand(factored: f64) -> Vec<Beside> {
+    let (robot, states) = (DoublePendulum::PLANAR_2DOF, states(&Planar2Dof));
+    let all = |s: &State<2, 2>| {
+        (robot.mass_matrix(&s.q), robot.coriolis_matrix(&s.q, &s.v), robot.gravity_forces(&s.q))
     };
-    let mut vector = || SVector::<f64, NV>::from_fn(|_, _| random());
-    // Where a motion from no rotation leads: quaternions are of unit length there.
-    let neutral = robot.neutral();
-    let mut configuration = || robot.integrate(&neutral, &vector());
-    let configurations: Vec<_> = (0..STATES).map(|_| configuration()).collect();
-    let states: Vec<_> = configurations.into_iter().map(|q| (q, vector(), vector())).collect();
-    let time = |algorithm: &str, call: &mut dyn FnMut(&States<NQ, NV>)| {
-        let mut batches: Vec<f64> = (0..BATCHES)
-            .map(|_| {
-                let start = Instant::now();
-                states.iter().for_each(&mut *call);
-                start.elapsed().as_nanos() as f64 / STATES as f64
-            })
-            .collect();
-        batches.sort_by(f64::total_cmp);
-        println!("{name}\t{NV}\tours\t{algorithm}\t{:.1}\t{:.1}", batches[0], batches[BATCHES / 2]);
-    };
-    time("g", &mut |(q, _, _)| _ = black_box(robot.gravity_forces(black_box(q))));
-    time("rnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics(black_box(q), v, a)));
-    time("nle", &mut |(q, v, _)| _ = black_box(robot.bias_forces(black_box(q), v)));
-    time("crba", &mut |(q, _, _)| _ = black_box(robot.mass_matrix(black_box(q))));
-    time("cor", &mut |(q, v, _)| _ = black_box(robot.coriolis_matrix(black_box(q), v)));
-    time("aba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics(black_box(q), v, tau)));
-    time("minv", &mut |(q, _, _)| _ = black_box(robot.inverse_mass_matrix(black_box(q))));
-    time("M+C+G", &mut |(q, v, _)| _ = black_box(robot.equations_of_motion(black_box(q), v)));
-    time("drnea", &mut |(q, v, a)| _ = black_box(robot.inverse_dynamics_derivatives(black_box(q), v, a)));
-    time("daba", &mut |(q, v, tau)| _ = black_box(robot.forward_dynamics_derivatives(black_box(q), v, tau)));
+    let forward = least(&states, |s| robot.forward_dynamics(&s.q, &s.v, &s.a));
+    vec![
+        ("M", Some(least(&states, |s| robot.mass_matrix(&s.q))), None),
+        ("C", Some(least(&states, |s| robot.coriolis_matrix(&s.q, &s.v))), None),
+        ("G", Some(least(&states, |s| robot.gravity_forces(&s.q))), None),
+        ("M,C,G", Some(least(&states, all)), None),
+        ("FD", Some(forward), Some(factored)),
+    ]
+}
+
+struct Rows<'a, const NQ: usize, const NV: usize> {
+    name: &'a str,
+    states: &'a [State<NQ, NV>],
+    beside: Vec<Beside>,
+}
+
+impl<const NQ: usize, const NV: usize> Stage<NQ, NV> for Rows<'_, NQ, NV> {
+    fn enter<O: Entries>(&mut self, output: &str, call: impl Fn(&State<NQ, NV>) -> O) {
+        let beside = self.beside.iter().find(|(known, ..)| *known == output);
+        let cell = |time: Option<f64>| time.map_or(String::new(), |time| format!("{time:.1}"));
+        let (by_hand, factored) = beside.map_or((None, None), |&(_, by_hand, factored)| (by_hand, factored));
+        let ours = least(self.states, call);
+        println!("| {} | {output} | {ours:.1} | {} | {} |", self.name, cell(by_hand), cell(factored));
+    }
 }

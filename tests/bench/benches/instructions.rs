@@ -1,0 +1,133 @@
+//! How many instructions a call takes, counted by valgrind: `cargo bench -p dynamics-bench --bench instructions`.
+//!
+//! The steady measure: no clock, the same in each run. It is of the generic build, without fused multiply-add or
+//! vectors beyond SSE2, so that it does not depend on the machine. `-- --check` compares with `instructions.txt` and
+//! fails if a count is off by more than [`TOLERANCE`]; `-- --write` writes that file.
+#![allow(clippy::print_stdout, reason = "the table is the product")]
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::hint::black_box;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+use dynamics_bench::contest::{Entries, Stage, State, Visitor, enter_all, states, visit};
+use dynamics_core::prelude::*;
+
+/// What other versions of rustc may add or save.
+const TOLERANCE: f64 = 0.05;
+/// Up to seven joints, and a floating tree: longer ones compile for minutes and show nothing else.
+const COUNTED: [&str; 6] = ["double_pendulum", "cartpole", "puma560", "iiwa14", "chain4", "hyq"];
+const EXPECTED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/instructions.txt");
+
+fn main() -> ExitCode {
+    let words: Vec<String> = std::env::args().skip(1).collect();
+    let has = |word: &str| words.iter().any(|given| given == word);
+    if has("--counted") {
+        COUNTED.into_iter().for_each(|name| visit(name, &mut OneCallEach));
+        return ExitCode::SUCCESS;
+    }
+    if cfg!(target_feature = "fma") {
+        println!("Nothing is counted: the counts are of the generic build, without `-C target-cpu`.");
+        return ExitCode::SUCCESS;
+    }
+    if !Command::new("valgrind").arg("--version").output().is_ok_and(|output| output.status.success()) {
+        println!("Nothing is counted: there is no valgrind.");
+        return ExitCode::SUCCESS;
+    }
+    let table = counts();
+    if has("--write") {
+        std::fs::write(EXPECTED, &table).expect("the file of expected counts is written");
+    }
+    print!("{table}");
+    if has("--check") { check(&table) } else { ExitCode::SUCCESS }
+}
+
+/// Runs each method once, for valgrind to count.
+struct OneCallEach;
+
+impl Visitor for OneCallEach {
+    fn visit<R, const NQ: usize, const NV: usize>(&mut self, name: &str, robot: &R)
+    where
+        R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>,
+    {
+        enter_all(robot, &mut OneCall { name, state: states(robot)[0] });
+    }
+}
+
+struct OneCall<'a, const NQ: usize, const NV: usize> {
+    name: &'a str,
+    state: State<NQ, NV>,
+}
+
+impl<const NQ: usize, const NV: usize> Stage<NQ, NV> for OneCall<'_, NQ, NV> {
+    fn enter<O: Entries>(&mut self, output: &str, call: impl Fn(&State<NQ, NV>) -> O) {
+        println!("{}\t{output}", self.name);
+        black_box(&counted_call(&call, black_box(&self.state)));
+    }
+}
+
+/// Valgrind counts in this function only, and writes a file whenever it returns.
+#[inline(never)]
+fn counted_call<S, O>(call: impl Fn(&S) -> O, state: &S) -> O {
+    let result = call(state);
+    // Or else it would jump into the method, and never return itself.
+    black_box(state);
+    result
+}
+
+/// A line a robot and output, with its count.
+fn counts() -> String {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join("instructions");
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).expect("a folder for valgrind's files");
+    let file = folder.join("counts");
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--toggle-collect=*counted_call*", "--dump-after=*counted_call*"])
+        .arg(format!("--callgrind-out-file={}", file.display()))
+        .arg(std::env::current_exe().expect("this program has a path"))
+        .arg("--counted")
+        .output()
+        .expect("valgrind runs");
+    let calls = String::from_utf8(output.stdout).expect("names are text");
+    let mut table = String::new();
+    for (k, call) in calls.lines().enumerate() {
+        let path = format!("{}.{}", file.display(), k + 1);
+        let counted = std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{path}: {error}"));
+        let total = counted.lines().find_map(|line| line.strip_prefix("summary: "));
+        let (robot, output) = call.split_once('\t').expect("a robot and its output");
+        let total = total.unwrap_or_else(|| panic!("{path} has no sum"));
+        let _ = writeln!(table, "{robot:<16} {output:<6} {:>6}", total.trim());
+    }
+    table
+}
+
+/// Compares with the expected counts.
+fn check(table: &str) -> ExitCode {
+    let expected = std::fs::read_to_string(EXPECTED).expect("the file of expected counts is there");
+    let (found, expected) = (parsed(table), parsed(&expected));
+    let mut failures = 0;
+    for (call, expected) in &expected {
+        let found = found.get(call).copied().unwrap_or(0.0);
+        if (found - expected).abs() > TOLERANCE * expected {
+            println!("{call}: {found} instructions, expected {expected}");
+            failures += 1;
+        }
+    }
+    if failures > 0 || found.len() != expected.len() {
+        println!(
+            "Counts changed. If they should: `cargo bench -p dynamics-bench --bench instructions -- --write`."
+        );
+        return ExitCode::FAILURE;
+    }
+    println!("All as expected, within {:.0} %.", 100.0 * TOLERANCE);
+    ExitCode::SUCCESS
+}
+
+fn parsed(table: &str) -> BTreeMap<String, f64> {
+    let row = |line: &str| {
+        let (call, count) = line.rsplit_once(' ')?;
+        Some((call.trim().to_owned(), count.parse().ok()?))
+    };
+    table.lines().filter_map(row).collect()
+}

@@ -1,0 +1,60 @@
+//! What the operations of our programs take at least, on one core, one state at a time.
+
+use std::collections::BTreeMap;
+
+use dynamics_bench::contest::{OUTPUTS, entry};
+use dynamics_codegen::diagnostics::Diagnostics;
+use dynamics_codegen::passes::Plan;
+use dynamics_codegen::spec::{self, urdf::Urdf};
+use dynamics_codegen::symbolic::Graph;
+
+/// How many scalar additions, products or fused products a core begins in a cycle.
+const PIPES: f64 = 2.0;
+
+/// In cycles, or at a clock in nanoseconds.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Bound {
+    /// By the number of instructions, however many calls overlap.
+    pub(crate) operations: f64,
+    /// By the longest chain of operations, of one call on its own; of straight lines only.
+    pub(crate) chain: Option<f64>,
+}
+
+impl Bound {
+    /// In nanoseconds.
+    pub(crate) fn at(self, gigahertz: f64) -> Self {
+        Self { operations: self.operations / gigahertz, chain: self.chain.map(|chain| chain / gigahertz) }
+    }
+}
+
+/// The bounds of all methods, in cycles.
+pub(crate) fn of(robot: &str) -> BTreeMap<&'static str, Bound> {
+    let entry = entry(robot).unwrap_or_else(|| panic!("there is no robot `{robot}`"));
+    let mut item: syn::DeriveInput = syn::parse_str(entry.source).expect("the robots are Rust");
+    let outputs = OUTPUTS.map(|(_, method)| quote::format_ident!("{method}"));
+    item.attrs.push(syn::parse_quote!(#[dynamics(outputs(#(#outputs),*))]));
+    let mut diags = Diagnostics::new();
+    let mut spec = spec::parse(&item, &mut diags);
+    if let Some(path) = spec.options.urdf.clone() {
+        let file = format!("{}/{}", env!("CARGO_MANIFEST_DIR"), path.text);
+        let text = std::fs::read_to_string(&file).unwrap_or_else(|error| panic!("{file}: {error}"));
+        spec::urdf::read(&mut spec, Urdf { file: &path.text, text: &text }, &mut diags);
+    }
+    let mistakes = diags.into_text();
+    assert!(mistakes.is_empty(), "{robot}: {mistakes}");
+    let graph = Graph::new();
+    let compiled = match dynamics_codegen::checked(&spec, &graph) {
+        Ok((_, compiled)) => compiled,
+        Err(mistakes) => panic!("{robot}: {}", mistakes.into_text()),
+    };
+    let bound = |plan: &Plan<'_>, cost: dynamics_codegen::passes::Cost| match plan {
+        Plan::StraightLine { program, .. } => Bound {
+            operations: f64::from(program.instructions()) / PIPES,
+            chain: Some(f64::from(program.latency())),
+        },
+        // Almost every product in the loops has its sum.
+        _ => Bound { operations: f64::from(cost.multiplications.max(cost.additions)) / PIPES, chain: None },
+    };
+    let methods = compiled.methods.iter();
+    methods.map(|compiled| (compiled.method.name(), bound(&compiled.plan, compiled.cost))).collect()
+}

@@ -1,0 +1,83 @@
+//! The race as a picture: a line for each output of each robot, a dot for each contestant, time on a logarithmic scale.
+
+use std::fmt::Write as _;
+
+use crate::tables::Row;
+
+const CONTESTANTS: [(&str, &str); 3] = [("Pinocchio", "#c0504d"), ("CasADi", "#e0a030"), ("ours", "#2060b0")];
+/// Where the scale begins and ends, and the first line; in pixels.
+const LEFT: f64 = 170.0;
+const RIGHT: f64 = 770.0;
+const TOP: f64 = 56.0;
+const LINE: f64 = 14.0;
+/// Between robots.
+const GAP: f64 = 8.0;
+
+/// The chart as SVG.
+pub(crate) fn svg(rows: &[Row]) -> String {
+    let known = rows.iter().flat_map(|row| row.nanoseconds).flatten();
+    let (least, most) = known.fold((f64::INFINITY, 1.0_f64), |(a, b), time| (a.min(time), b.max(time)));
+    let decades = least.log10().floor() as i32..=most.log10().ceil() as i32;
+    let span = f64::from(decades.end() - decades.start()).max(1.0);
+    let place = |time: f64| LEFT + (time.log10() - f64::from(*decades.start())) / span * (RIGHT - LEFT);
+    let mut lines = String::new();
+    let mut y = TOP;
+    let mut robot = "";
+    for row in rows {
+        if row.robot != robot {
+            robot = &row.robot;
+            y += GAP;
+            let _ = writeln!(lines, r#"<text x="8" y="{}" font-weight="bold">{robot}</text>"#, y + 4.0);
+        }
+        line(&mut lines, row, y, place);
+        y += LINE;
+    }
+    let (width, height) = (RIGHT + 20.0, y + 8.0);
+    let mut text = format!(
+        r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="11">
+<rect width="100%" height="100%" fill="#ffffff"/>
+"##
+    );
+    for (k, (name, colour)) in CONTESTANTS.iter().enumerate() {
+        let x = LEFT + 90.0 * k as f64;
+        let _ = writeln!(
+            text,
+            r#"<circle cx="{x}" cy="14" r="4" fill="{colour}"/><text x="{}" y="18">{name}</text>"#,
+            x + 9.0
+        );
+    }
+    let x = LEFT + 270.0;
+    let _ = writeln!(
+        text,
+        r##"<path d="M{x} 9v10" stroke="#000000"/><text x="{}" y="18">bound by our operations</text>"##,
+        x + 9.0
+    );
+    for decade in decades.clone() {
+        let (x, power) = (place(10_f64.powi(decade)), 10_f64.powi(decade));
+        let _ = writeln!(
+            text,
+            r##"<path d="M{x:.1} {TOP}V{y}" stroke="#dddddd"/><text x="{x:.1}" y="{}" text-anchor="middle">{power} ns</text>"##,
+            TOP - 8.0
+        );
+    }
+    text + &lines + "</svg>\n"
+}
+
+/// One output: a line from its fastest contestant to its slowest.
+fn line(text: &mut String, row: &Row, y: f64, place: impl Fn(f64) -> f64) {
+    let places: Vec<f64> = row.nanoseconds.iter().flatten().map(|&time| place(time)).collect();
+    let (left, right) = places.iter().fold((RIGHT, LEFT), |(a, b), &x| (a.min(x), b.max(x)));
+    let _ =
+        writeln!(text, r#"<text x="{}" y="{}" text-anchor="end">{}</text>"#, LEFT - 8.0, y + 4.0, row.output);
+    let _ = writeln!(text, r##"<path d="M{left:.1} {y}H{right:.1}" stroke="#999999"/>"##);
+    let bound = place(row.bound.operations).max(LEFT);
+    let _ = writeln!(text, r##"<path d="M{bound:.1} {}v8" stroke="#000000"/>"##, y - 4.0);
+    for (time, (name, colour)) in row.nanoseconds.iter().zip(CONTESTANTS) {
+        let Some(time) = *time else { continue };
+        let x = place(time);
+        let _ = writeln!(
+            text,
+            r#"<circle cx="{x:.1}" cy="{y}" r="4" fill="{colour}"><title>{name}: {time:.1} ns</title></circle>"#
+        );
+    }
+}

@@ -1,0 +1,138 @@
+//! The tables of `COMPARE.md`, one file each.
+
+use std::fmt::Write as _;
+use std::path::Path;
+
+use dynamics_bench::contest::OUTPUTS;
+
+use crate::agreement::Difference;
+use crate::bounds::Bound;
+use crate::contestants::{Contestant, Times};
+
+/// How many times as fast as Pinocchio and as CasADi's C ours is to be.
+const MARKS: [f64; 2] = [10.0, 3.0];
+
+/// One cell of the race, times in nanoseconds a call.
+pub(crate) struct Row {
+    pub(crate) robot: String,
+    pub(crate) output: &'static str,
+    /// Of Pinocchio, CasADi's C, and ours.
+    pub(crate) nanoseconds: [Option<f64>; 3],
+    pub(crate) bound: Bound,
+}
+
+impl Row {
+    /// What ours is to take: what the marks demand, or what the operations take where that is more.
+    fn mark(&self) -> Option<f64> {
+        let demanded = self.nanoseconds.iter().zip(MARKS).filter_map(|(time, mark)| Some((*time)? / mark));
+        let demanded = demanded.fold(f64::INFINITY, f64::min);
+        demanded.is_finite().then(|| demanded.max(self.bound.operations))
+    }
+}
+
+/// Prints a table, and writes it into the folder.
+pub(crate) fn write(folder: &Path, name: &str, table: &str) {
+    println!("{table}");
+    std::fs::write(folder.join(format!("{name}.md")), table).expect("a table can be written");
+}
+
+/// Every output of every robot.
+pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
+    let mut table = format!(
+        "Nanoseconds a call; the core ran at {gigahertz:.2} GHz.\n\n\
+         | robot | output | Pinocchio | CasADi | ours | × Pinocchio | × CasADi | operations | chain | mark | ours / mark |\n\
+         |---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+    );
+    let (mut met, mut within_chain, mut ahead) = (0, 0, 0);
+    for row in rows {
+        let [pinocchio, casadi, ours] = row.nanoseconds;
+        let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
+        let times = |peer: Option<f64>| Some(peer? / ours?);
+        let of_mark = ours.zip(row.mark()).map(|(ours, mark)| ours / mark);
+        let is_met = of_mark.is_some_and(|of_mark| of_mark <= 1.0);
+        met += usize::from(is_met);
+        within_chain += usize::from(!is_met && ours <= row.bound.chain);
+        let leads = |peer| times(peer).is_none_or(|times| times > 1.0);
+        ahead += usize::from(leads(pinocchio) && leads(casadi));
+        let verdict = match of_mark {
+            Some(of_mark) if of_mark <= 1.0 => format!("**{of_mark:.2}**"),
+            Some(of_mark) => format!("{of_mark:.2}"),
+            None => "–".to_owned(),
+        };
+        let cells = [pinocchio, casadi, ours, times(pinocchio), times(casadi)];
+        let cells = cells.into_iter().chain([Some(row.bound.operations), row.bound.chain, row.mark()]);
+        let cells: Vec<String> = cells.map(cell).collect();
+        let _ = writeln!(table, "| {} | {} | {} | {verdict} |", row.robot, row.output, cells.join(" | "));
+    }
+    let _ = writeln!(
+        table,
+        "\nOurs is first in {ahead} of {} cells. It meets its mark in {met}; in {within_chain} others it takes less than \
+         the longest chain of a call.",
+        rows.len()
+    );
+    table
+}
+
+/// The largest differences from Pinocchio's numbers.
+pub(crate) fn agreement(robots: &[String], differences: &[Difference]) -> String {
+    let mut table = heading("robot", "CasADi, ours, ours without FMA");
+    for robot in robots {
+        let _ = write!(table, "| {robot} |");
+        for (output, _) in OUTPUTS {
+            let of = |contestant| {
+                let is_it = |found: &&Difference| {
+                    found.robot == *robot && found.output == output && found.contestant == contestant
+                };
+                differences
+                    .iter()
+                    .find(is_it)
+                    .map_or("–".to_owned(), |found| format!("{:.0e}", found.relative))
+            };
+            let cells = [Contestant::Casadi, Contestant::Ours, Contestant::Generic].map(of);
+            let _ = write!(table, " {} |", cells.join(", "));
+        }
+        table += "\n";
+    }
+    table
+}
+
+/// How much longer ours takes without fused multiply-add and wide vectors.
+pub(crate) fn generic(robots: &[String], times: &Times) -> String {
+    let mut table = heading("robot", "generic / native");
+    for robot in robots {
+        let _ = write!(table, "| {robot} |");
+        for (output, _) in OUTPUTS {
+            let of = |contestant| times.get(robot, output, contestant);
+            let ratio =
+                of(Contestant::Generic).zip(of(Contestant::Ours)).map(|(generic, ours)| generic / ours);
+            let _ = write!(table, " {} |", ratio.map_or("–".to_owned(), |ratio| format!("{ratio:.2}")));
+        }
+        table += "\n";
+    }
+    table
+}
+
+/// What computing several outputs in one call saves.
+pub(crate) fn bundles(robots: &[String], times: &Times) -> String {
+    let bundles = [("M,C,G", ["M", "C", "G"]), ("dFD", ["FD", "dID", "1/M"])];
+    let mut table =
+        "| robot | M, C, G in one | M + C + G | ratio | ∂FD, which has M⁻¹ | FD + ∂ID + M⁻¹ | ratio |\n\
+         |---|--:|--:|--:|--:|--:|--:|\n"
+            .to_owned();
+    for robot in robots {
+        let of = |output: &str| times.get(robot, output, Contestant::Ours).unwrap_or(f64::NAN);
+        let _ = write!(table, "| {robot} |");
+        for (bundle, parts) in bundles {
+            let (whole, sum) = (of(bundle), parts.map(of).iter().sum::<f64>());
+            let _ = write!(table, " {whole:.1} | {sum:.1} | {:.2} |", whole / sum);
+        }
+        table += "\n";
+    }
+    table
+}
+
+fn heading(first: &str, what: &str) -> String {
+    let names: Vec<&str> = OUTPUTS.iter().map(|(output, _)| *output).collect();
+    let line = "--:|".repeat(names.len());
+    format!("{what}:\n\n| {first} | {} |\n|---|{line}\n", names.join(" | "))
+}
