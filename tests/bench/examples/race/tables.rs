@@ -43,7 +43,7 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
          | robot | output | Pinocchio | CasADi | ours | × Pinocchio | × CasADi | operations | chain | mark | ours / mark |\n\
          |---|---|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
     );
-    let (mut met, mut within_chain, mut ahead) = (0, 0, 0);
+    let (mut met, mut within_chain, mut behind) = (0, 0, vec![]);
     for row in rows {
         let [pinocchio, casadi, ours] = row.nanoseconds;
         let cell = |value: Option<f64>| value.map_or("–".to_owned(), |value| format!("{value:.1}"));
@@ -52,8 +52,9 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
         let is_met = of_mark.is_some_and(|of_mark| of_mark <= 1.0);
         met += usize::from(is_met);
         within_chain += usize::from(!is_met && ours <= row.bound.chain);
-        let leads = |peer| times(peer).is_none_or(|times| times > 1.0);
-        ahead += usize::from(leads(pinocchio) && leads(casadi));
+        if [pinocchio, casadi].into_iter().any(|peer| times(peer).is_some_and(|times| times < 1.0)) {
+            behind.push(format!("{} of {}", row.output, row.robot));
+        }
         let verdict = match of_mark {
             Some(of_mark) if of_mark <= 1.0 => format!("**{of_mark:.2}**"),
             Some(of_mark) => format!("{of_mark:.2}"),
@@ -66,9 +67,11 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
     }
     let _ = writeln!(
         table,
-        "\nOurs is first in {ahead} of {} cells. It meets its mark in {met}; in {within_chain} others it takes less than \
-         the longest chain of a call.",
-        rows.len()
+        "\nOurs is behind a peer in {} of {} cells: {}. It meets its mark in {met}; in {within_chain} others it takes less \
+         than the longest chain of a call.",
+        behind.len(),
+        rows.len(),
+        if behind.is_empty() { "none".to_owned() } else { behind.join(", ") }
     );
     table
 }
