@@ -1,6 +1,7 @@
 //! The kinematic tree in numbers or expressions: moving links, frames, gravity.
 
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Scalar, Vector3};
+use crate::symbolic::Real;
 
 /// How a joint moves its link. All kinds of joints are made of these four, with massless links between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -166,15 +167,15 @@ impl<S> Tree<S> {
     }
 }
 
-impl Tree<f64> {
+impl<S: Real> Tree<S> {
     /// Makes quaternions of unit length; what is all zeros becomes no rotation.
-    pub fn normalise(&self, q: &mut [f64]) {
+    pub fn normalise(&self, q: &mut [S]) {
         for at in self.quaternions() {
             let quaternion = &mut q[at..at + 4];
-            let length = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-            match length > 0.0 {
-                true => quaternion.iter_mut().for_each(|x| *x /= length),
-                false => quaternion[3] = 1.0,
+            let length = quaternion.iter().fold(S::from(0), |sum, &x| sum + x * x).sqrt();
+            match length.is_positive() {
+                true => quaternion.iter_mut().for_each(|x| *x = *x / length),
+                false => quaternion[3] = S::from(1),
             }
         }
     }

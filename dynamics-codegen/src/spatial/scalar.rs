@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::symbolic::Expr;
+use crate::symbolic::{Expr, Real};
 
 /// A number, or something that becomes one: `f64`, an expression, a dual number.
 pub trait Scalar:
@@ -49,18 +49,18 @@ pub trait Scalar:
     }
 }
 
-impl Scalar for f64 {
+impl<R: Real> Scalar for R {
     fn is_zero(self) -> bool {
-        self == 0.0
+        Real::is_zero(self)
     }
     fn sin(self) -> Self {
-        f64::sin(self)
+        Real::sin(self)
     }
     fn cos(self) -> Self {
-        f64::cos(self)
+        Real::cos(self)
     }
     fn sqrt(self) -> Self {
-        f64::sqrt(self)
+        Real::sqrt(self)
     }
 }
 

@@ -1,24 +1,24 @@
 //! The reference interpreter: the value of expressions at numbers.
 
-use super::{Expr, Graph, NodeId, Op, SymbolId};
+use super::{Expr, Graph, NodeId, Op, Real, SymbolId};
 
 /// Evaluates nodes of a graph at one assignment of its inputs, each node once.
-pub struct Evaluator<'g, F> {
+pub struct Evaluator<'g, F, R = f64> {
     graph: &'g Graph,
-    values: Vec<Option<f64>>,
+    values: Vec<Option<R>>,
     input: F,
 }
 
-impl<'g, F: Fn(SymbolId) -> f64> Evaluator<'g, F> {
+impl<'g, R: Real, F: Fn(SymbolId) -> R> Evaluator<'g, F, R> {
     /// An evaluator that asks `input` for the value of each symbol.
     pub fn new(graph: &'g Graph, input: F) -> Self {
         Self { graph, values: vec![None; graph.len()], input }
     }
 
     /// The value of `expr`.
-    pub fn value(&mut self, expr: Expr<'g>) -> f64 {
+    pub fn value(&mut self, expr: Expr<'g>) -> R {
         match expr {
-            Expr::Constant(value) => value.to_f64(),
+            Expr::Constant(value) => R::of(value),
             Expr::Node { id, negative, .. } => {
                 let value = self.node(id);
                 if negative { -value } else { value }
@@ -27,7 +27,7 @@ impl<'g, F: Fn(SymbolId) -> f64> Evaluator<'g, F> {
     }
 
     /// Operands before operations, without recursion: graphs may be deep.
-    fn node(&mut self, root: NodeId) -> f64 {
+    fn node(&mut self, root: NodeId) -> R {
         let mut stack = vec![root];
         while let Some(&id) = stack.last() {
             let waiting = stack.len();
@@ -45,18 +45,18 @@ impl<'g, F: Fn(SymbolId) -> f64> Evaluator<'g, F> {
         self.known(root)
     }
 
-    fn known(&self, id: NodeId) -> f64 {
+    fn known(&self, id: NodeId) -> R {
         self.values[id.index()].expect("operands are evaluated before operations")
     }
 
-    fn apply(&self, op: Op) -> f64 {
+    fn apply(&self, op: Op) -> R {
         match op {
-            Op::Constant(k) => self.graph.number(k).to_f64(),
+            Op::Constant(k) => R::of(self.graph.number(k)),
             Op::Symbol(symbol) => (self.input)(symbol),
             Op::Add(a, b) => self.known(a) + self.known(b),
             Op::Sub(a, b) => self.known(a) - self.known(b),
             Op::Mul(a, b) => self.known(a) * self.known(b),
-            Op::Scale(k, a) => self.graph.number(k).to_f64() * self.known(a),
+            Op::Scale(k, a) => R::of(self.graph.number(k)) * self.known(a),
             Op::Div(a, b) => self.known(a) / self.known(b),
             Op::Sqrt(a) => self.known(a).sqrt(),
             Op::Sin(a) => self.known(a).sin(),

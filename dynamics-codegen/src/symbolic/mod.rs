@@ -7,9 +7,11 @@ mod evaluate;
 mod expr;
 mod graph;
 pub mod number;
+mod real;
 
 pub use differentiate::Differentiator;
 pub use evaluate::Evaluator;
 pub use expr::Expr;
 pub use graph::{Graph, NodeId, Op, SymbolId};
 pub use number::Number;
+pub use real::Real;

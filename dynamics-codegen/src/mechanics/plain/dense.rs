@@ -1,28 +1,30 @@
-//! Dense linear algebra in doubles: Cholesky, and the products that residuals need.
+//! Dense linear algebra: Cholesky, and the products that residuals need.
 //!
 //! G. Golub, C. Van Loan, *Matrix Computations*, Johns Hopkins 2013, ch. 4.2.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use crate::symbolic::Real;
+
 /// A matrix, by rows.
-pub type Rows = Vec<Vec<f64>>;
+pub type Rows<S = f64> = Vec<Vec<S>>;
 
 /// The factor `L` of a symmetric positive definite `M = L Lᵀ`.
 #[derive(Clone, Debug)]
-pub struct Cholesky {
-    L: Rows,
+pub struct Cholesky<S = f64> {
+    L: Rows<S>,
 }
 
-impl Cholesky {
+impl<S: Real> Cholesky<S> {
     /// Factors `M`, of which it reads the lower half. `None` unless every pivot is positive.
-    pub fn of(M: &[Vec<f64>]) -> Option<Self> {
-        let mut L: Rows = Vec::with_capacity(M.len());
+    pub fn of(M: &[Vec<S>]) -> Option<Self> {
+        let mut L: Rows<S> = Vec::with_capacity(M.len());
         for (i, given) in M.iter().enumerate() {
-            let mut row = vec![0.0; M.len()];
+            let mut row = vec![S::from(0); M.len()];
             for j in 0..i {
                 row[j] = (given[j] - dot(&row[..j], &L[j][..j])) / L[j][j];
             }
             let pivot = given[i] - dot(&row[..i], &row[..i]);
-            if pivot.is_nan() || pivot <= 0.0 {
+            if !pivot.is_positive() {
                 return None;
             }
             row[i] = pivot.sqrt();
@@ -32,33 +34,37 @@ impl Cholesky {
     }
 
     /// `M⁻¹ b`
-    pub fn solve(&self, b: &[f64]) -> Vec<f64> {
+    pub fn solve(&self, b: &[S]) -> Vec<S> {
         let (L, n) = (&self.L, self.L.len());
         let mut x = b.to_vec();
         for i in 0..n {
             x[i] = (x[i] - dot(&L[i][..i], &x[..i])) / L[i][i];
         }
         for i in (0..n).rev() {
-            let known: f64 = (i + 1..n).map(|k| L[k][i] * x[k]).sum();
+            let known = sum((i + 1..n).map(|k| L[k][i] * x[k]));
             x[i] = (x[i] - known) / L[i][i];
         }
         x
     }
 
     /// `M⁻¹ B`
-    pub fn solve_columns(&self, B: &[Vec<f64>]) -> Rows {
-        let columns: Rows = transpose(B).iter().map(|column| self.solve(column)).collect();
+    pub fn solve_columns(&self, B: &[Vec<S>]) -> Rows<S> {
+        let columns: Rows<S> = transpose(B).iter().map(|column| self.solve(column)).collect();
         transpose(&columns)
     }
 }
 
 /// `aᵀb`
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
+pub(super) fn dot<S: Real>(a: &[S], b: &[S]) -> S {
+    sum(a.iter().zip(b).map(|(&x, &y)| x * y))
+}
+
+fn sum<S: Real>(terms: impl Iterator<Item = S>) -> S {
+    terms.fold(S::from(0), |sum, term| sum + term)
 }
 
 /// `A b`
-pub(super) fn times(A: &[Vec<f64>], b: &[f64]) -> Vec<f64> {
+pub(super) fn times<S: Real>(A: &[Vec<S>], b: &[S]) -> Vec<S> {
     A.iter().map(|row| dot(row, b)).collect()
 }
 
@@ -69,7 +75,7 @@ pub(super) fn product(A: &[Vec<f64>], B: &[Vec<f64>]) -> Rows {
 }
 
 /// `Aᵀ`
-pub(super) fn transpose(A: &[Vec<f64>]) -> Rows {
+pub(super) fn transpose<S: Real>(A: &[Vec<S>]) -> Rows<S> {
     let width = A.first().map_or(0, Vec::len);
     (0..width).map(|j| A.iter().map(|row| row[j]).collect()).collect()
 }
@@ -80,8 +86,8 @@ pub(super) fn magnitudes(A: &[Vec<f64>]) -> Rows {
 }
 
 /// The identity.
-pub(super) fn identity(n: usize) -> Rows {
-    (0..n).map(|i| (0..n).map(|j| f64::from(u8::from(i == j))).collect()).collect()
+pub(super) fn identity<S: Real>(n: usize) -> Rows<S> {
+    (0..n).map(|i| (0..n).map(|j| S::from(i32::from(i == j))).collect()).collect()
 }
 
 /// The largest magnitude; not a number if one is not a number.

@@ -11,46 +11,46 @@ use crate::spatial::Scalar;
 
 /// `value + tangent·ε`
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Dual {
+pub struct Dual<S = f64> {
     /// The number.
-    pub value: f64,
+    pub value: S,
     /// Its derivative along the direction of differentiation.
-    pub tangent: f64,
+    pub tangent: S,
 }
 
-impl Dual {
+impl<S: Scalar> Dual<S> {
     /// A number that does not change.
-    pub fn constant(value: f64) -> Self {
-        Self { value, tangent: 0.0 }
+    pub fn constant(value: S) -> Self {
+        Self { value, tangent: S::zero() }
     }
 
     /// The point `at`, moving with the velocity `direction`.
-    pub fn moving(at: &[f64], direction: &[f64]) -> Vec<Self> {
+    pub fn moving(at: &[S], direction: &[S]) -> Vec<Self> {
         assert_eq!(at.len(), direction.len(), "a point moves in its own space");
         at.iter().zip(direction).map(|(&value, &tangent)| Self { value, tangent }).collect()
     }
 
     /// The point `at`, at rest.
-    pub fn resting(at: &[f64]) -> Vec<Self> {
+    pub fn resting(at: &[S]) -> Vec<Self> {
         at.iter().copied().map(Self::constant).collect()
     }
 }
 
-impl Add for Dual {
+impl<S: Scalar> Add for Dual<S> {
     type Output = Self;
     fn add(self, rhs: Self) -> Self {
         Self { value: self.value + rhs.value, tangent: self.tangent + rhs.tangent }
     }
 }
 
-impl Sub for Dual {
+impl<S: Scalar> Sub for Dual<S> {
     type Output = Self;
     fn sub(self, rhs: Self) -> Self {
         Self { value: self.value - rhs.value, tangent: self.tangent - rhs.tangent }
     }
 }
 
-impl Mul for Dual {
+impl<S: Scalar> Mul for Dual<S> {
     type Output = Self;
     fn mul(self, rhs: Self) -> Self {
         let tangent = self.tangent * rhs.value + self.value * rhs.tangent;
@@ -58,7 +58,7 @@ impl Mul for Dual {
     }
 }
 
-impl Div for Dual {
+impl<S: Scalar> Div for Dual<S> {
     type Output = Self;
     fn div(self, rhs: Self) -> Self {
         let value = self.value / rhs.value;
@@ -66,29 +66,29 @@ impl Div for Dual {
     }
 }
 
-impl Neg for Dual {
+impl<S: Scalar> Neg for Dual<S> {
     type Output = Self;
     fn neg(self) -> Self {
         Self { value: -self.value, tangent: -self.tangent }
     }
 }
 
-impl From<i32> for Dual {
+impl<S: Scalar> From<i32> for Dual<S> {
     fn from(value: i32) -> Self {
         Self::constant(value.into())
     }
 }
 
-impl Scalar for Dual {
+impl<S: Scalar> Scalar for Dual<S> {
     fn is_zero(self) -> bool {
-        self.value == 0.0 && self.tangent == 0.0
+        self.value.is_zero() && self.tangent.is_zero()
     }
     fn sin(self) -> Self {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = (self.value.sin(), self.value.cos());
         Self { value: sin, tangent: cos * self.tangent }
     }
     fn cos(self) -> Self {
-        let (sin, cos) = self.value.sin_cos();
+        let (sin, cos) = (self.value.sin(), self.value.cos());
         Self { value: cos, tangent: -sin * self.tangent }
     }
     fn sqrt(self) -> Self {

@@ -15,7 +15,7 @@ pub use ratio::Exact;
 pub use wide::Wide;
 
 use std::cmp::Ordering;
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A constant of the equations.
 ///
@@ -41,6 +41,9 @@ impl Number {
     pub const ONE: Self = Self::Exact(Exact::ONE);
     /// π, exactly.
     pub const PI: Self = Self::Exact(Exact::PI);
+
+    /// What is no number.
+    pub(super) const NAN: Self = Self::Float(Wide::NAN);
 
     /// A whole number.
     pub const fn integer(value: i64) -> Self {
@@ -259,6 +262,21 @@ impl Mul for Number {
             return Self::Exact(product);
         }
         Self::from_wide(self.to_wide().mul(rhs.to_wide()))
+    }
+}
+
+impl Div for Number {
+    type Output = Self;
+
+    /// By zero it is not a number: where that can be, ask [`Number::checked_div`].
+    fn div(self, rhs: Self) -> Self {
+        self.checked_div(rhs).unwrap_or(Self::NAN)
+    }
+}
+
+impl From<i32> for Number {
+    fn from(value: i32) -> Self {
+        Self::integer(value.into())
     }
 }
 
