@@ -3,8 +3,8 @@
 //! Mass that may belong to a parent is given to it ([`regroup`](super::regroup)); what is left of a link has columns of
 //! its own. Behind two axes that are not parallel these are independent. Nearer to the base, where less can move,
 //! some are zero whatever the motion is, and are left out; and some are combinations of others, which take up their
-//! parameters. Combinations are found in numbers, at random states; what holds at one value of the robot's fields and
-//! not at another is not taken for one.
+//! parameters. Combinations are found in doubles, at random states; what holds at one value of the robot's fields and
+//! not at another is not taken for one. Shares that are no simple numbers are then solved for in all digits.
 //!
 //! M. Gautier, W. Khalil, *Direct calculation of minimum set of inertial parameters of serial robots*, 1990.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
@@ -17,7 +17,7 @@ use super::regroup::{Split, split};
 use super::rnea::{Wrench, link_wrench};
 use crate::model::Motion;
 use crate::spatial::{Matrix3, PseudoInertia, Random, Scalar, Symmetric3, Vector3};
-use crate::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
+use crate::symbolic::{Evaluator, Expr, Graph, Number, Real, SymbolId};
 
 /// The columns of the base parameters; `is_body` says of each link whether it may have mass of its own.
 pub fn base_columns<'g>(
@@ -95,22 +95,49 @@ fn independent<'g>(
         return columns;
     }
     let forces: Vec<&[Expr<'g>]> = bound.iter().map(|&k| &*columns[k].forces).collect();
-    let [found, again] = [1, 2].map(|set| combinations(sampled(&forces, symbols, set)));
+    let [found, again] = [1, 2].map(|set| combinations::<f64>(sampled(&forces, symbols, set)));
     let mut is_kept = vec![true; columns.len()];
+    let mut taken = vec![];
     for (place, (shares, others)) in found.iter().zip(&again).enumerate() {
         let (Some(shares), Some(others)) = (shares, others) else { continue };
         if shares.iter().zip(others).any(|(one, other)| (one - other).abs() > 1e-6) {
             continue;
         }
         is_kept[bound[place]] = false;
-        let taken = columns[bound[place]].clone();
-        for (&at, &share) in bound.iter().zip(shares) {
-            take_up(&mut columns[at], &taken, share);
+        taken.push((bound[place], exact_shares(place, shares, &forces, symbols)));
+    }
+    for (from, shares) in taken {
+        let taken = columns[from].clone();
+        for (at, share) in shares {
+            take_up(&mut columns[bound[at]], &taken, share);
         }
     }
     let mut is_kept = is_kept.into_iter();
     columns.retain(|_| is_kept.next().unwrap_or(true));
     columns
+}
+
+/// The shares in column `place` that are not zero, as exactly as numbers are, from those found in doubles.
+///
+/// Shares are made of the robot's constant angles, lengths and ratios. Near simple numbers they are these; otherwise the
+/// combination, of a few columns now, is solved for again.
+fn exact_shares<'g>(
+    place: usize,
+    shares: &[f64],
+    columns: &[&[Expr<'g>]],
+    symbols: &Symbols<'_, 'g>,
+) -> Vec<(usize, Number)> {
+    let simple =
+        [(1, 1), (-1, 1), (1, 2), (-1, 2), (2, 1), (-2, 1)].map(|(num, den)| Number::ratio(num, den));
+    let at_share = |share: f64| simple.into_iter().find(|x| (x.to_f64() - share).abs() < NOTHING);
+    let parts: Vec<usize> = (0..shares.len()).filter(|&at| shares[at].abs() >= NOTHING).collect();
+    let known: Option<Vec<Number>> = parts.iter().map(|&at| at_share(shares[at])).collect();
+    let solved = || {
+        let involved: Vec<&[Expr<'g>]> = parts.iter().chain([&place]).map(|&at| columns[at]).collect();
+        let digits: Option<Vec<Number>> = combinations(sampled(&involved, symbols, 1)).pop().flatten();
+        digits.unwrap_or_else(|| parts.iter().map(|&at| real(shares[at])).chain([Number::ZERO]).collect())
+    };
+    parts.iter().copied().zip(known.unwrap_or_else(solved)).collect()
 }
 
 /// What the graph's symbols are, for states at random.
@@ -124,7 +151,7 @@ pub struct Symbols<'t, 'g> {
 }
 
 /// The forces of the columns at random states, one after another, and at the `set`-th values of the fields.
-fn sampled<'g>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set: u64) -> Vec<Vec<f64>> {
+fn sampled<'g, R: Real>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set: u64) -> Vec<Vec<R>> {
     let Inputs { parameters, coordinates, dof } = symbols.inputs;
     let mut samples = vec![vec![]; columns.len()];
     let felt: Vec<usize> =
@@ -133,13 +160,13 @@ fn sampled<'g>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set: u64) -> 
     for state in 0..columns.len() + 4 {
         // Parameters come first among the symbols, and are the same in every state.
         let mut fields = Random(set);
-        let mut values: Vec<f64> = (0..parameters).map(|_| 1.1 + 0.5 * fields.next()).collect();
+        let mut values: Vec<R> = (0..parameters).map(|_| real(1.1 + 0.5 * fields.next())).collect();
         let mut random = Random(100 + state as u64);
-        values.extend((0..coordinates + 3 * dof).map(|_| 2.5 * random.next()));
+        values.extend((0..coordinates + 3 * dof).map(|_| real::<R>(2.5 * random.next())));
         for at in symbols.quaternions {
             let quaternion = &mut values[parameters + at..][..4];
-            let length = quaternion.iter().map(|x| x * x).sum::<f64>().sqrt();
-            quaternion.iter_mut().for_each(|x| *x /= length);
+            let length = dot(quaternion, quaternion).sqrt();
+            quaternion.iter_mut().for_each(|x| *x = *x / length);
         }
         let mut evaluator = Evaluator::new(symbols.graph, |symbol: SymbolId| values[symbol.0 as usize]);
         for (sample, forces) in samples.iter_mut().zip(columns) {
@@ -152,17 +179,16 @@ fn sampled<'g>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set: u64) -> 
 /// For each vector that is a combination of those before it, the shares of all of them in it.
 ///
 /// Gram–Schmidt, twice for what rounding leaves the first time; G. Golub, C. Van Loan 2013, ch. 5.2.
-fn combinations(vectors: Vec<Vec<f64>>) -> Vec<Option<Vec<f64>>> {
-    let dot = |x: &[f64], y: &[f64]| -> f64 { x.iter().zip(y).map(|(x, y)| x * y).sum() };
-    let subtract = |x: &mut [f64], k: f64, y: &[f64]| x.iter_mut().zip(y).for_each(|(x, y)| *x -= k * y);
+fn combinations<R: Real>(vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>> {
+    let subtract = |x: &mut [R], k: R, y: &[R]| x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x - k * y);
     let n = vectors.len();
     // Orthonormal directions, and what each is made of.
-    let mut basis: Vec<(Vec<f64>, Vec<f64>)> = vec![];
+    let mut basis: Vec<(Vec<R>, Vec<R>)> = vec![];
     let mut found = Vec::with_capacity(n);
     for (k, vector) in vectors.into_iter().enumerate() {
         let size = dot(&vector, &vector).sqrt();
-        let (mut left, mut made_of) = (vector, vec![0.0; n]);
-        made_of[k] = 1.0;
+        let (mut left, mut made_of) = (vector, vec![R::from(0); n]);
+        made_of[k] = R::from(1);
         for _ in 0..2 {
             for (direction, parts) in &basis {
                 let along = dot(&left, direction);
@@ -171,31 +197,32 @@ fn combinations(vectors: Vec<Vec<f64>>) -> Vec<Option<Vec<f64>>> {
             }
         }
         let length = dot(&left, &left).sqrt();
-        if length <= NOTHING * size {
-            made_of[k] = 0.0;
-            found.push(Some(made_of.iter().map(|share| -share).collect()));
-        } else {
-            [&mut left, &mut made_of].into_iter().flatten().for_each(|x| *x /= length);
+        if (length - real::<R>(NOTHING) * size).is_positive() {
+            [&mut left, &mut made_of].into_iter().flatten().for_each(|x| *x = *x / length);
             basis.push((left, made_of));
             found.push(None);
+        } else {
+            made_of[k] = R::from(0);
+            found.push(Some(made_of.iter().map(|&share| -share).collect()));
         }
     }
     found
 }
 
-/// Adds to a column's parameter its share in another that goes. Shares are made of the robot's constant angles,
-/// lengths and ratios: near a simple number they are it, and others are rounded to twelve digits, so that hosts whose
-/// sines differ in the last bit find the same.
-fn take_up<'g>(column: &mut RegressorColumn<Expr<'g>>, taken: &RegressorColumn<Expr<'g>>, share: f64) {
-    let simple = [0.0, 1.0, -1.0, 0.5, -0.5, 2.0, -2.0].into_iter().find(|x| (x - share).abs() < NOTHING);
-    let rounded = || format!("{share:.11e}").parse().unwrap_or(share);
-    let share: f64 = simple.unwrap_or_else(rounded);
-    if share == 0.0 {
-        return;
-    }
-    let Some(factor) = Number::from_f64(share) else { return };
-    column.value = column.value + Expr::from(factor) * taken.value;
-    let (sign, size) = (if share < 0.0 { "-" } else { "+" }, share.abs());
+fn dot<R: Real>(x: &[R], y: &[R]) -> R {
+    x.iter().zip(y).fold(R::from(0), |sum, (&x, &y)| sum + x * y)
+}
+
+/// A double in numbers of any precision.
+fn real<R: Real>(x: f64) -> R {
+    R::of(Number::from_f64(x).unwrap_or(Number::ZERO))
+}
+
+/// Adds to a column's parameter its share in another that goes. Names have twelve digits of it.
+fn take_up<'g>(column: &mut RegressorColumn<Expr<'g>>, taken: &RegressorColumn<Expr<'g>>, share: Number) {
+    column.value = column.value + Expr::from(share) * taken.value;
+    let sign = if share.is_negative() { "-" } else { "+" };
+    let size: f64 = format!("{:.11e}", share.abs().to_f64()).parse().unwrap_or_default();
     let factor = if size == 1.0 { String::new() } else { format!("{size} ") };
     column.name = format!("{} {sign} {factor}{}", column.name, taken.name);
 }
