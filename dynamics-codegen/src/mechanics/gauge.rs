@@ -82,7 +82,12 @@ impl<'g> Change<'g> {
         if (x * x + y * y).cmp_value(nearly_parallel()).is_lt() {
             return Self::to_parallel_axis(origin, Self::free(joint));
         }
-        Self::to_common_normal(origin, [x, y, z])
+        let to_foot = Self::to_common_normal(origin, [x, y, z]);
+        if is_far(to_foot.shift, origin) {
+            Self::to_parallel_axis(origin, Self::free(joint))
+        } else {
+            to_foot
+        }
     }
 
     /// The change if nothing demands one: no turn against the parent and no offset along the axis.
@@ -208,6 +213,13 @@ fn direction<'g>(x: Number, y: Number) -> PlanarTurn<Expr<'g>> {
 /// than the links are long by the inverse of the sine, and forces computed there lose as many digits.
 fn nearly_parallel() -> Number {
     Number::ratio(1, 100)
+}
+
+/// Whether the foot of the common normal is so much further away than the next joint that more is lost by its distance
+/// than is won by its zeros.
+fn is_far(shift: Expr<'_>, origin: Vector3<Expr<'_>>) -> bool {
+    let (Some(shift), Some([x, y, z])) = (shift.as_number(), constants(origin)) else { return false };
+    (Number::integer(9) * (x * x + y * y + z * z)).cmp_value(shift * shift).is_lt()
 }
 
 fn constants(v: Vector3<Expr<'_>>) -> Option<[Number; 3]> {
