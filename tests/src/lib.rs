@@ -4,6 +4,7 @@
 //! robot can be run on every road to a number: the compiled Rust through [`Robot`], the compiler's own through
 //! [`roads`]. Comparison is by [`assert_close!`], with tolerances that have names.
 
+pub mod accuracy;
 pub mod close;
 pub mod dual;
 mod frames;

@@ -7,7 +7,7 @@ use dynamics_codegen::mechanics::plain::Oracle;
 use dynamics_codegen::model::{self, Model, Tree};
 use dynamics_codegen::passes::{self, Compiled, Plan};
 use dynamics_codegen::spec;
-use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
+use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, Real, SymbolId};
 
 use crate::State;
 use crate::zoo::Entry;
@@ -77,9 +77,13 @@ impl<'g> Roads<'g> {
             known.unwrap_or_else(|| panic!("{}: no value for `{name}`", entry.name)).1
         };
         let parameters: Vec<f64> = model.parameters.iter().map(|parameter| value(&parameter.name)).collect();
-        let mut evaluator = Evaluator::new(graph, |symbol: SymbolId| parameters[symbol.0 as usize]);
-        let tree = model.tree.map(|expr| evaluator.value(expr));
+        let tree = tree_in(graph, &model, |symbol| parameters[symbol.0 as usize]);
         Self { graph, model, tree, parameters }
+    }
+
+    /// The tree in numbers of any precision, which are made of the fields by `field`.
+    pub fn tree_in<R: Real>(&self, field: impl Fn(f64) -> R) -> Tree<R> {
+        tree_in(self.graph, &self.model, |symbol| field(self.parameters[symbol.0 as usize]))
     }
 
     /// The plain recursion in doubles.
@@ -103,6 +107,11 @@ impl<'g> Roads<'g> {
     pub fn lagrangian(&self) -> Lagrangian {
         Lagrangian { tree: self.tree.clone() }
     }
+}
+
+fn tree_in<'g, R: Real>(graph: &'g Graph, model: &Model<'g>, field: impl Fn(SymbolId) -> R) -> Tree<R> {
+    let mut evaluator = Evaluator::new(graph, field);
+    model.tree.map(|expr| evaluator.value(expr))
 }
 
 /// The interpreted programs of a robot.
