@@ -38,6 +38,13 @@ pub enum Error {
         /// The field's name.
         field: &'static str,
     },
+    /// The slices of a batch are not of one length.
+    BatchLength {
+        /// The number of results asked for.
+        results: usize,
+        /// The number of states in the first slice that has another one.
+        states: usize,
+    },
 }
 
 impl Error {
@@ -112,6 +119,9 @@ impl fmt::Display for Error {
             Self::StepNotPositive => f.write_str("the time step is not positive and finite"),
             Self::ParameterNotFinite { field } => write!(f, "the parameter `{field}` is not finite"),
             Self::MassNotPositive { field } => write!(f, "the mass `{field}` is not positive"),
+            Self::BatchLength { results, states } => {
+                write!(f, "a batch has room for {results} results and {states} states")
+            }
         }
     }
 }
@@ -136,6 +146,8 @@ mod tests {
         let message = "the quaternion that begins at q[3] is not of unit length";
         assert_eq!(Error::NotUnitQuaternion { index: 3 }.to_string(), message);
         assert_eq!(Error::SingularMassMatrix.to_string(), "the mass matrix is singular");
+        let message = "a batch has room for 5 results and 4 states";
+        assert_eq!(Error::BatchLength { results: 5, states: 4 }.to_string(), message);
         assert_eq!(Error::StepNotPositive.to_string(), "the time step is not positive and finite");
     }
 

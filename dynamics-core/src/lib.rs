@@ -35,6 +35,8 @@
 //! | `derive` (default) | the derive macro `Dynamics` |
 //! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like |
 //! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
+//! | `simd` | [lanes]: `f64x4`, `f64x8`, `f32x8`, `f32x16` as scalars; [batches](batch) of states from slices |
+//! | `rayon` | batches over all cores; implies `simd` and `std`, has a heap, and panics if threads cannot be started |
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
@@ -44,10 +46,14 @@ extern crate std;
 
 #[doc(hidden)]
 pub mod __private;
+#[cfg(feature = "simd")]
+pub mod batch;
 pub mod centroidal;
 pub mod dynamics;
 pub mod error;
 pub mod kinematics;
+#[cfg(feature = "simd")]
+pub mod lanes;
 pub mod linearize;
 pub mod mechanism;
 mod product;
@@ -84,6 +90,11 @@ pub mod prelude {
         EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator,
         InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose, Regressor, Rk4,
         Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel,
+    };
+    #[cfg(feature = "simd")]
+    pub use crate::{
+        batch,
+        lanes::{f32x8, f32x16, f64x4, f64x8},
     };
     pub use nalgebra::{SMatrix, SVector};
 }

@@ -1,7 +1,7 @@
 //! Sine and cosine together: straight-line kernels for `f64` and `f32`.
 //!
 //! One range reduction serves both functions. There is no branch, no table and no call, so that the kernels inline
-//! into generated code and vectorise; the `f32` kernel never touches `f64`.
+//! into generated code; lanes run through the same source, and give the same bits. The `f32` kernel never touches `f64`.
 //!
 //! | kernel | range | largest absolute error | beyond |
 //! |---|---|---|---|
@@ -18,6 +18,40 @@ use core::f64::consts as pi64;
 
 use crate::scalar::{FUSED, Scalar};
 
+/// What a kernel asks of a float, or of lanes of floats, beside arithmetic.
+pub(crate) trait Kernel: Scalar {
+    /// `self` where |x| < `limit`, NaN elsewhere.
+    fn or_nan_unless_below(self, x: Self, limit: Self) -> Self;
+
+    /// Turns `(sin, cos)` by the quarter turns in the two lowest bits of `quarter_turns`: swaps and signs without a
+    /// branch.
+    fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self);
+}
+
+macro_rules! impl_kernel {
+    ($float:ident, $sign:literal) => {
+        impl Kernel for $float {
+            #[inline(always)]
+            fn or_nan_unless_below(self, x: Self, limit: Self) -> Self {
+                if x.abs() < limit { self } else { $float::NAN }
+            }
+
+            #[inline(always)]
+            fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self) {
+                let turns = quarter_turns.to_bits();
+                let odd = turns & 1 != 0;
+                let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
+                let sign_s = (turns & 2) << ($sign - 1);
+                let sign_c = (turns.wrapping_add(1) & 2) << ($sign - 1);
+                ($float::from_bits(s.to_bits() ^ sign_s), $float::from_bits(c.to_bits() ^ sign_c))
+            }
+        }
+    };
+}
+
+impl_kernel!(f64, 63);
+impl_kernel!(f32, 31);
+
 /// `(sin x, cos x)`, with `x` in radians.
 ///
 /// For |x| ≤ 2³⁰ the absolute error of either is at most 1.7e-16 (measured against 80-bit arithmetic). Beyond, where
@@ -31,52 +65,46 @@ use crate::scalar::{FUSED, Scalar};
 #[inline(always)]
 #[must_use]
 pub fn sin_cos_f64(x: f64) -> (f64, f64) {
+    sin_cos_double(x)
+}
+
+/// [`sin_cos_f64`], in each lane.
+#[inline(always)]
+pub(crate) fn sin_cos_double<T: Kernel>(x: T) -> (T, T) {
     const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5·2⁵²: adding it leaves the integer in the low bits
     const LIMIT: f64 = 562_949_953_421_312.0; // 2⁴⁹
-    let rounded = madd(x, pi64::FRAC_2_PI, ROUND);
-    let quarter_turns = rounded - ROUND;
-    let r = reduce_f64(x, quarter_turns);
-    let r = if x.abs() < LIMIT { r } else { f64::NAN };
+    let rounded = madd(x, T::of(pi64::FRAC_2_PI), T::of(ROUND));
+    let r = reduce_double(x, rounded - T::of(ROUND)).or_nan_unless_below(x, T::of(LIMIT));
 
     let z = r * r;
     let z2 = z * z;
-    let s12 = madd(z, 8.333_333_333_322_49e-3, -1.666_666_666_666_663_2e-1);
-    let s34 = madd(z, 2.755_731_370_707_006_8e-6, -1.984_126_982_985_795e-4);
-    let s56 = madd(z, 1.589_690_995_211_55e-10, -2.505_076_025_340_686_3e-8);
-    let c12 = madd(z, -1.388_888_888_887_411e-3, 4.166_666_666_666_66e-2);
-    let c34 = madd(z, -2.755_731_435_139_066_3e-7, 2.480_158_728_947_673e-5);
-    let c56 = madd(z, -1.135_964_755_778_819_5e-11, 2.087_572_321_298_175e-9);
+    let s12 = linear(z, 8.333_333_333_322_49e-3, -1.666_666_666_666_663_2e-1);
+    let s34 = linear(z, 2.755_731_370_707_006_8e-6, -1.984_126_982_985_795e-4);
+    let s56 = linear(z, 1.589_690_995_211_55e-10, -2.505_076_025_340_686_3e-8);
+    let c12 = linear(z, -1.388_888_888_887_411e-3, 4.166_666_666_666_66e-2);
+    let c34 = linear(z, -2.755_731_435_139_066_3e-7, 2.480_158_728_947_673e-5);
+    let c56 = linear(z, -1.135_964_755_778_819_5e-11, 2.087_572_321_298_175e-9);
     let s = madd(z2, madd(z2, s56, s34), s12);
     let c = madd(z2, madd(z2, c56, c34), c12);
     let sin = madd(r * z, s, r);
-    let cos = madd(z2, c, madd(z, -0.5, 1.0));
+    let cos = madd(z2, c, linear(z, -0.5, 1.0));
 
-    turn_f64(sin, cos, rounded.to_bits())
+    T::turn(sin, cos, rounded)
 }
 
 /// `r = x − k·π/2`, with π/2 in parts short enough that the first products are exact.
 #[inline(always)]
-fn reduce_f64(x: f64, k: f64) -> f64 {
+fn reduce_double<T: Kernel>(x: T, k: T) -> T {
     if FUSED {
-        let r = madd(-k, pi64::FRAC_PI_2, x); // exact
-        madd(-k, 6.123_233_995_736_766e-17, r)
+        let r = madd(-k, T::of(pi64::FRAC_PI_2), x); // exact
+        madd(-k, T::of(6.123_233_995_736_766e-17), r)
     } else {
         // 23, 23 and 53 bits: the first two products are exact for |k| ≤ 2³⁰.
         const P1: f64 = f64::from_bits(0x3FF9_21FB_4000_0000);
         const P2: f64 = f64::from_bits(0x3E74_442D_0000_0000);
         const P3: f64 = f64::from_bits(0x3CF8_4698_98CC_5170);
-        ((x - k * P1) - k * P2) - k * P3
+        ((x - k * T::of(P1)) - k * T::of(P2)) - k * T::of(P3)
     }
-}
-
-/// Turns `(sin r, cos r)` by the quarter turns in the two lowest bits: swaps and signs without a branch.
-#[inline(always)]
-fn turn_f64(sin: f64, cos: f64, quarter_turns: u64) -> (f64, f64) {
-    let odd = quarter_turns & 1 != 0;
-    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
-    let sign_s = (quarter_turns & 2) << 62;
-    let sign_c = (quarter_turns.wrapping_add(1) & 2) << 62;
-    (f64::from_bits(s.to_bits() ^ sign_s), f64::from_bits(c.to_bits() ^ sign_c))
 }
 
 /// `(sin x, cos x)`, with `x` in radians, without a single operation in `f64`.
@@ -90,44 +118,45 @@ fn turn_f64(sin: f64, cos: f64, quarter_turns: u64) -> (f64, f64) {
 #[inline(always)]
 #[must_use]
 pub fn sin_cos_f32(x: f32) -> (f32, f32) {
-    const ROUND: f32 = 12_582_912.0; // 1.5·2²³
-    const LIMIT: f32 = 1_048_576.0; // 2²⁰
-    let rounded = madd(x, pi32::FRAC_2_PI, ROUND);
-    let r = reduce_f32(x, rounded - ROUND);
-    let r = if x.abs() < LIMIT { r } else { f32::NAN };
+    sin_cos_single(x)
+}
+
+/// [`sin_cos_f32`], in each lane. The constants are those of `f32`, which `of` rounds to without loss.
+#[inline(always)]
+pub(crate) fn sin_cos_single<T: Kernel>(x: T) -> (T, T) {
+    const ROUND: f64 = 12_582_912.0; // 1.5·2²³
+    const LIMIT: f64 = 1_048_576.0; // 2²⁰
+    let rounded = madd(x, T::of(pi32::FRAC_2_PI as f64), T::of(ROUND));
+    let r = reduce_single(x, rounded - T::of(ROUND)).or_nan_unless_below(x, T::of(LIMIT));
 
     let z = r * r;
-    let s = madd(z, madd(z, -1.949_595_5e-4, 8.331_982e-3), -1.666_665_1e-1);
-    let c = madd(z, madd(z, 2.443_066_1e-5, -1.388_730_1e-3), 4.166_664_6e-2);
+    let s = madd(z, linear(z, -1.949_595_5e-4, 8.331_982e-3), T::of(-1.666_665_1e-1));
+    let c = madd(z, linear(z, 2.443_066_1e-5, -1.388_730_1e-3), T::of(4.166_664_6e-2));
     let sin = madd(r * z, s, r);
-    let cos = madd(z * z, c, madd(z, -0.5, 1.0));
+    let cos = madd(z * z, c, linear(z, -0.5, 1.0));
 
-    turn_f32(sin, cos, rounded.to_bits())
+    T::turn(sin, cos, rounded)
 }
 
 /// `r = x − k·π/2`, with π/2 in parts short enough that the first products are exact.
 #[inline(always)]
-fn reduce_f32(x: f32, k: f32) -> f32 {
+fn reduce_single<T: Kernel>(x: T, k: T) -> T {
     if FUSED {
-        let r = madd(-k, pi32::FRAC_PI_2, x); // exact
-        madd(-k, -4.371_139e-8, r)
+        let r = madd(-k, T::of(pi32::FRAC_PI_2 as f64), x); // exact
+        madd(-k, T::of(-4.371_139e-8), r)
     } else {
         // 11, 11 and 24 bits: the first two products are exact for |k| ≤ 2¹³.
         const P1: f32 = f32::from_bits(0x3FC9_0000);
         const P2: f32 = f32::from_bits(0x39FD_A000);
         const P3: f32 = f32::from_bits(0x33A2_2169);
-        ((x - k * P1) - k * P2) - k * P3
+        ((x - k * T::of(P1 as f64)) - k * T::of(P2 as f64)) - k * T::of(P3 as f64)
     }
 }
 
-/// [`turn_f64`] for `f32`.
+/// `slope·x + offset`, fused where the target can.
 #[inline(always)]
-fn turn_f32(sin: f32, cos: f32, quarter_turns: u32) -> (f32, f32) {
-    let odd = quarter_turns & 1 != 0;
-    let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
-    let sign_s = (quarter_turns & 2) << 30;
-    let sign_c = (quarter_turns.wrapping_add(1) & 2) << 30;
-    (f32::from_bits(s.to_bits() ^ sign_s), f32::from_bits(c.to_bits() ^ sign_c))
+fn linear<T: Scalar>(x: T, slope: f64, offset: f64) -> T {
+    madd(x, T::of(slope), T::of(offset))
 }
 
 /// `a·b + c`, fused where the target can.
