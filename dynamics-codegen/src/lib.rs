@@ -217,7 +217,7 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
 
 /// Numbers that are sound one by one can have products beyond the range of doubles.
 fn check_constants(spec: &spec::RobotSpec, compiled: &passes::Compiled<'_>, diags: &mut Diagnostics) {
-    if compiled.programs().any(|program| program.constant_out_of_range().is_some()) {
+    if compiled.programs().any(passes::Program::has_constant_out_of_range) {
         let message = format!("the numbers of `{}` are too large: their products overflow", spec.ident);
         diags.error(Code::NumberOutOfRange, &spec.ident.span().into(), message);
     }

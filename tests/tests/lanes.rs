@@ -146,12 +146,17 @@ fn a_quadruped() {
     let robot = Hyq;
     let states = States::<f64, 19, 18>::with_bad_ones(&robot);
     type Wide = Native<f64>;
-    let agree = States::agree::<Wide, _>;
-    agree(&states, "τ", |q, v, a| robot.inverse_dynamics(q, v, a), |q, v, a| robot.inverse_dynamics(q, v, a));
-    let agree = States::agree::<Wide, _>;
-    agree(&states, "a", |q, v, t| robot.forward_dynamics(q, v, t), |q, v, t| robot.forward_dynamics(q, v, t));
-    let agree = States::agree::<Wide, _>;
-    agree(&states, "pose", |q, _, _| robot.pose::<LfFoot>(q), |q, _, _| robot.pose::<LfFoot>(q));
+    states.agree::<Wide, _>(
+        "τ",
+        |q, v, a| robot.inverse_dynamics(q, v, a),
+        |q, v, a| robot.inverse_dynamics(q, v, a),
+    );
+    states.agree::<Wide, _>(
+        "a",
+        |q, v, t| robot.forward_dynamics(q, v, t),
+        |q, v, t| robot.forward_dynamics(q, v, t),
+    );
+    states.agree::<Wide, _>("pose", |q, _, _| robot.pose::<LfFoot>(q), |q, _, _| robot.pose::<LfFoot>(q));
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans, calls};
-use super::schedule::schedule;
+use super::schedule::{arithmetic, schedule};
 use super::share::share;
 use super::table;
-use super::{Companion, Cost, Operand, Program, Source};
+use super::{Companion, Cost, Program};
 use crate::mechanics::equations::{Block, Derivation, Equation, Inputs, Method};
 use crate::mechanics::regressor::RegressorColumn;
 use crate::model::Model;
@@ -84,8 +84,10 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let derivation = derivation.in_unit(unit);
     let plan = Plans::of(model);
     let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
-    let equations: Vec<Equation<'g>> =
-        straight.map(|method| Equation { method, blocks: cheapest(&derivation, method) }).collect();
+    let mut normaliser = Normaliser::new(graph);
+    let equations: Vec<Equation<'g>> = straight
+        .map(|method| Equation { method, blocks: cheapest(&derivation, method, &mut normaliser) })
+        .collect();
     let table = methods
         .iter()
         .any(|&method| matches!(plan.form(method), Form::Table | Form::Lanes))
@@ -160,20 +162,20 @@ fn best_unit(derivation: &Derivation<'_>) -> Number {
     }
     let cost = |unit: &Number| {
         let entries = entries(&derivation.in_unit(*unit).blocks(Method::InverseDynamics));
-        arithmetic(schedule(derivation.graph, derivation.inputs, &entries, |_| None).cost())
+        arithmetic(derivation.graph, &entries, |_| false)
     };
     units.into_iter().min_by_key(cost).unwrap_or(Number::ONE)
 }
 
 /// The cheapest way to compute a method's result, simplified.
-fn cheapest<'g>(derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
+fn cheapest<'g>(
+    derivation: &Derivation<'g>,
+    method: Method,
+    normaliser: &mut Normaliser<'g>,
+) -> Vec<Block<'g>> {
     let graph = derivation.graph;
-    let mut normaliser = Normaliser::new(graph);
-    let at_hand = Operand { source: Source::Field(0), negative: false };
-    let is_free = |node| graph.is_parameter_only(node).then_some(at_hand);
-    let cost = |blocks: &Vec<Block<'g>>| {
-        arithmetic(schedule(graph, derivation.inputs, &entries(blocks), is_free).cost())
-    };
+    let is_free = |node| graph.is_parameter_only(node);
+    let cost = |blocks: &Vec<Block<'g>>| arithmetic(graph, &entries(blocks), is_free);
     let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
     for blocks in derivation.alternatives(method) {
         let entries = entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
@@ -184,7 +186,7 @@ fn cheapest<'g>(derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
         plain.truncate(1);
     }
     let simplified = plain.into_iter().flat_map(|blocks| {
-        let shared = share(graph, &entries(&blocks), |node| graph.is_parameter_only(node));
+        let shared = share(graph, &entries(&blocks), is_free);
         [with_entries(&blocks, shared), blocks]
     });
     simplified.min_by_key(cost).unwrap_or_default()
@@ -192,10 +194,6 @@ fn cheapest<'g>(derivation: &Derivation<'g>, method: Method) -> Vec<Block<'g>> {
 
 /// The largest robot of which every alternative is simplified before the cheapest is chosen.
 const MOST_TO_SHARE_EACH: usize = 3;
-
-fn arithmetic(cost: Cost) -> u32 {
-    cost.multiplications + cost.additions + cost.divisions + cost.square_roots
-}
 
 /// All entries of the blocks, in order.
 pub fn entries<'g>(blocks: &[Block<'g>]) -> Vec<Expr<'g>> {

@@ -1,13 +1,11 @@
 //! Work that depends on parameters alone is done once: it becomes a field of the robot's companion.
 
-use rustc_hash::FxHashMap;
-
 use super::parameters::{Normaliser, reads_negative};
 use super::program::{Operand, Program, Source};
 use super::schedule::schedule;
 use super::share::share;
 use crate::mechanics::equations::{Equation, Inputs};
-use crate::symbolic::{Expr, Graph, NodeId, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op};
 
 /// The fields of the prepared companion: parameters that methods read, and what is made of them.
 pub struct Companion<'g> {
@@ -16,14 +14,14 @@ pub struct Companion<'g> {
     /// How the fields are computed from the parameters, in their order.
     pub preparation: Program,
     /// What each hoisted node is read as.
-    reads: FxHashMap<NodeId, Operand>,
+    reads: NodeMap<Operand>,
 }
 
 impl<'g> Companion<'g> {
     /// Finds what the equations and the table of links need of parameter-only work.
     pub fn of(graph: &'g Graph, inputs: Inputs, equations: &[Equation<'g>], table: &[Expr<'g>]) -> Self {
         let nothing = Program { steps: Vec::new(), results: Vec::new() };
-        let mut companion = Self { fields: Vec::new(), preparation: nothing, reads: FxHashMap::default() };
+        let mut companion = Self { fields: Vec::new(), preparation: nothing, reads: NodeMap::new(graph) };
         let mut normaliser = Normaliser::new(graph);
         for id in hoisted_nodes(graph, equations, table) {
             let value = normaliser.normalise(Expr::of_node(graph, id));
@@ -38,7 +36,7 @@ impl<'g> Companion<'g> {
 
     /// What a node is read as, if it is hoisted.
     pub fn read(&self, node: NodeId) -> Option<Operand> {
-        self.reads.get(&node).copied()
+        self.reads.get(node).copied()
     }
 
     /// Puts the fields in the order in which they are computed, parameters first.
@@ -55,17 +53,17 @@ impl<'g> Companion<'g> {
         }
         self.fields = order.iter().map(|&old| self.fields[old]).collect();
         self.preparation.results = order.iter().map(|&old| self.preparation.results[old]).collect();
-        let moved = |operand: Operand| match operand.source {
-            Source::Field(field) => Operand { source: Source::Field(place[field]), ..operand },
-            _ => operand,
-        };
-        self.reads = self.reads.drain().map(|(node, operand)| (node, moved(operand))).collect();
+        for operand in self.reads.values_mut() {
+            if let Source::Field(field) = operand.source {
+                operand.source = Source::Field(place[field]);
+            }
+        }
     }
 
     /// A field for the value, or for its negative if that reads better.
     fn operand(&mut self, graph: &'g Graph, value: Expr<'g>) -> Operand {
         if let Expr::Constant(value) = value {
-            return Operand { source: Source::Constant(value.abs()), negative: value.is_negative() };
+            return Operand::constant(value);
         }
         let negative = reads_negative(graph, value);
         let value = if negative { -value } else { value };
@@ -94,7 +92,7 @@ fn hoisted_nodes(graph: &Graph, equations: &[Equation<'_>], table: &[Expr<'_>]) 
                 found.push(id);
             } else {
                 let needed = |x: &NodeId| !matches!(graph.op(*x), Op::Constant(_));
-                stack.extend(graph.op(id).operands().into_iter().flatten().filter(needed));
+                stack.extend(graph.op(id).operands().filter(needed));
             }
         }
     }

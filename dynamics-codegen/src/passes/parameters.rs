@@ -7,9 +7,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use rustc_hash::FxHashMap;
-
-use crate::symbolic::{Expr, Graph, NodeId, Number, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op};
 
 /// The longest polynomial that is expanded.
 const MOST_TERMS: usize = 40;
@@ -21,14 +19,14 @@ type Polynomial = BTreeMap<Monomial, Number>;
 /// Rewrites expressions so that every parameter-only part of them is in normal form.
 pub(super) struct Normaliser<'g> {
     graph: &'g Graph,
-    polynomials: FxHashMap<NodeId, Rc<Polynomial>>,
-    rewritten: FxHashMap<NodeId, Expr<'g>>,
+    polynomials: NodeMap<Rc<Polynomial>>,
+    rewritten: NodeMap<Expr<'g>>,
 }
 
 impl<'g> Normaliser<'g> {
     /// A normaliser for expressions of `graph`.
     pub(super) fn new(graph: &'g Graph) -> Self {
-        Self { graph, polynomials: FxHashMap::default(), rewritten: FxHashMap::default() }
+        Self { graph, polynomials: NodeMap::new(graph), rewritten: NodeMap::new(graph) }
     }
 
     /// The expression in normal form.
@@ -48,18 +46,21 @@ impl<'g> Normaliser<'g> {
         while let Some(&id) = stack.last() {
             let waiting = stack.len();
             let op = self.graph.op(id);
-            if !self.rewritten.contains_key(&id) {
-                stack.extend(op.operands().into_iter().flatten().filter(|x| !self.rewritten.contains_key(x)));
+            if self.rewritten.contains(id) {
+                stack.pop();
+                continue;
+            }
+            for operand in op.operands() {
+                if !self.rewritten.contains(operand) {
+                    stack.push(operand);
+                }
             }
             if stack.len() == waiting {
-                if !self.rewritten.contains_key(&id) {
-                    let value = self.rewrite(id, op);
-                    self.rewritten.insert(id, value);
-                }
-                stack.pop();
+                let value = self.rewrite(id, op);
+                self.rewritten.insert(id, value);
             }
         }
-        self.rewritten[&root]
+        self.rewritten[root]
     }
 
     fn rewrite(&mut self, id: NodeId, op: Op) -> Expr<'g> {
@@ -74,7 +75,7 @@ impl<'g> Normaliser<'g> {
 
     /// The operation on rewritten operands.
     fn applied(&self, id: NodeId, op: Op) -> Expr<'g> {
-        let of = |x: NodeId| self.rewritten[&x];
+        let of = |x: NodeId| self.rewritten[x];
         match op {
             Op::Constant(_) | Op::Symbol(_) => Expr::of_node(self.graph, id),
             Op::Add(a, b) => of(a) + of(b),
@@ -105,10 +106,10 @@ impl<'g> Normaliser<'g> {
     }
 
     fn known(&self, id: NodeId) -> Rc<Polynomial> {
-        match (self.graph.op(id), self.polynomials.get(&id)) {
+        match (self.graph.op(id), self.polynomials.get(id)) {
             (_, Some(polynomial)) => Rc::clone(polynomial),
             (Op::Constant(k), None) => Rc::new(Polynomial::from([(Vec::new(), self.graph.number(k))])),
-            (_, None) => Rc::new(atom(self.rewritten[&id])),
+            (_, None) => Rc::new(atom(self.rewritten[id])),
         }
     }
 

@@ -9,8 +9,8 @@ use crate::symbolic::Number;
 /// Where a value comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Source {
-    /// A constant, positive unless it is a result.
-    Constant(Number),
+    /// A constant, without its sign, rounded; infinite or not a number if no double can hold it.
+    Constant(f64),
     /// A parameter, or a component of an argument.
     Input(Input),
     /// A field of the prepared companion.
@@ -30,6 +30,13 @@ pub struct Operand {
     pub source: Source,
     /// Whether it is negated.
     pub negative: bool,
+}
+
+impl Operand {
+    /// A constant, rounded.
+    pub(super) fn constant(value: Number) -> Self {
+        Self { source: Source::Constant(value.abs().to_f64()), negative: value.is_negative() }
+    }
 }
 
 /// What a step does.
@@ -52,12 +59,24 @@ pub enum Operation {
 impl Operation {
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = Operand> {
-        let operands = match *self {
+        Operands(match *self {
             Operation::Add(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => [Some(a), Some(b), None],
             Operation::MulAdd(a, b, c) => [Some(a), Some(b), Some(c)],
             Operation::Sqrt(a) | Operation::SinCos(a) => [Some(a), None, None],
-        };
-        operands.into_iter().flatten()
+        })
+    }
+}
+
+/// Operands one after another. Iterators of arrays are slow where nothing is optimised.
+struct Operands([Option<Operand>; 3]);
+
+impl Iterator for Operands {
+    type Item = Operand;
+
+    fn next(&mut self) -> Option<Operand> {
+        let [next, second, third] = self.0;
+        self.0 = [second, third, None];
+        next
     }
 }
 
@@ -115,9 +134,7 @@ impl Program {
             match step.operation {
                 Operation::Add(..) => cost.additions += 1,
                 Operation::Mul(..) => cost.multiplications += 1,
-                Operation::MulAdd(a, ..) if a.source == Source::Constant(Number::integer(2)) => {
-                    cost.additions += 2
-                }
+                Operation::MulAdd(a, ..) if a.source == Source::Constant(2.0) => cost.additions += 2,
                 Operation::MulAdd(..) => {
                     cost.multiplications += 1;
                     cost.additions += 1;
@@ -135,7 +152,7 @@ impl Program {
         let mut values: Vec<(f64, f64)> = Vec::with_capacity(self.steps.len());
         let read = |values: &[(f64, f64)], operand: Operand| {
             let value = match operand.source {
-                Source::Constant(value) => value.to_f64(),
+                Source::Constant(value) => value,
                 Source::Input(symbol) => input(symbol),
                 Source::Field(k) => fields[k],
                 Source::Step(k) | Source::Sin(k) => values[k].0,
@@ -158,22 +175,28 @@ impl Program {
         self.results.iter().map(|&operand| read(&values, operand)).collect()
     }
 
-    /// A constant that no double can hold, if there is one.
-    pub fn constant_out_of_range(&self) -> Option<Number> {
-        let operands = self.steps.iter().flat_map(|step| step.operation.operands());
-        operands.chain(self.results.iter().copied()).find_map(|operand| match operand.source {
-            Source::Constant(value) if !(value.is_finite() && value.to_f64().is_finite()) => Some(value),
-            _ => None,
-        })
+    /// Whether there is a constant that no double can hold.
+    pub fn has_constant_out_of_range(&self) -> bool {
+        let is_out =
+            |operand: &Operand| matches!(operand.source, Source::Constant(value) if !value.is_finite());
+        let in_step = |step: &Step| step.operation.operands().any(|operand| is_out(&operand));
+        self.steps.iter().any(in_step) || self.results.iter().any(is_out)
     }
 
     pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.steps.len()];
-        let operands = self.steps.iter().flat_map(|step| step.operation.operands());
-        for operand in operands.chain(self.results.iter().copied()) {
+        let mut read = |operand: Operand| {
             if let Source::Step(k) | Source::Sin(k) | Source::Cos(k) = operand.source {
                 uses[k] += 1;
             }
+        };
+        for step in &self.steps {
+            for operand in step.operation.operands() {
+                read(operand);
+            }
+        }
+        for result in &self.results {
+            read(*result);
         }
         for (step, uses) in self.steps.iter_mut().zip(uses) {
             step.uses = uses;

@@ -1,11 +1,11 @@
 //! From expressions to a program: which products are fused into sums, and in which order everything runs.
 
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 use super::program::{Operand, Operation, Program, Source, Step};
 use super::signs;
 use crate::mechanics::equations::Inputs;
-use crate::symbolic::{Expr, Graph, NodeId, Number, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op};
 
 /// The program that computes `results`; `at_hand` says which nodes need no step, and what they are read as.
 pub fn schedule<'g>(
@@ -14,17 +14,9 @@ pub fn schedule<'g>(
     results: &[Expr<'g>],
     at_hand: impl Fn(NodeId) -> Option<Operand>,
 ) -> Program {
-    let live = Live::of(graph, results, &at_hand);
-    let mut builder = Builder {
-        graph,
-        inputs,
-        live: &live,
-        at_hand,
-        made: FxHashMap::default(),
-        sines: FxHashMap::default(),
-        steps: Vec::new(),
-    };
-    for &id in &live.order {
+    let (order, nodes) = live(graph, results, at_hand);
+    let mut builder = Builder { graph, inputs, nodes, sines: FxHashMap::default(), steps: Vec::new() };
+    for id in order {
         builder.node(id);
     }
     let results = results.iter().map(|&result| builder.result(result)).collect();
@@ -34,67 +26,113 @@ pub fn schedule<'g>(
     program
 }
 
-/// The nodes that the results need, in order, and how often each is read.
-struct Live {
-    order: Vec<NodeId>,
-    uses: FxHashMap<NodeId, usize>,
-    /// The length of the longest chain of operations up to a node.
-    depth: FxHashMap<NodeId, usize>,
-    read_by_sum: FxHashSet<NodeId>,
-}
-
-impl Live {
-    fn of(graph: &Graph, results: &[Expr<'_>], at_hand: &impl Fn(NodeId) -> Option<Operand>) -> Self {
-        let mut uses: FxHashMap<NodeId, usize> = FxHashMap::default();
-        let mut order = Vec::new();
-        let mut stack = Vec::new();
-        for result in results {
-            let Expr::Node { id, .. } = *result else { continue };
-            stack.push(id);
+/// How many additions, multiplications, divisions and roots the program of `results` would have, where `is_free` says
+/// which nodes need no step: each operation is one, and fused ones are two.
+pub(super) fn arithmetic(graph: &Graph, results: &[Expr<'_>], is_free: impl Fn(NodeId) -> bool) -> usize {
+    let mut seen = NodeMap::new(graph);
+    let mut stack = nodes_of(results);
+    let mut count = 0;
+    while let Some(id) = stack.pop() {
+        if seen.contains(id) {
+            continue;
         }
-        while let Some(id) = stack.pop() {
-            let uses = uses.entry(id).or_insert(0);
-            *uses += 1;
-            if *uses == 1 {
-                order.push(id);
-                if at_hand(id).is_none() {
-                    stack.extend(graph.op(id).operands().into_iter().flatten());
-                }
-            }
+        seen.insert(id, ());
+        if is_free(id) {
+            continue;
         }
-        order.sort_unstable();
-        let mut depth: FxHashMap<NodeId, usize> = FxHashMap::default();
-        let mut read_by_sum = FxHashSet::default();
-        for &id in &order {
-            if let Op::Add(a, b) | Op::Sub(a, b) = graph.op(id) {
-                read_by_sum.extend([a, b]);
-            }
-            let below = graph.op(id).operands().into_iter().flatten().filter_map(|x| depth.get(&x)).max();
-            depth.insert(id, below.map_or(0, |below| below + 1));
+        let op = graph.op(id);
+        count += usize::from(!matches!(op, Op::Constant(_) | Op::Symbol(_) | Op::Sin(_) | Op::Cos(_)));
+        for operand in op.operands() {
+            stack.push(operand);
         }
-        Self { order, uses, depth, read_by_sum }
     }
+    count
 }
 
-struct Builder<'g, 'l, F> {
+fn nodes_of(results: &[Expr<'_>]) -> Vec<NodeId> {
+    let node = |result: &Expr<'_>| match *result {
+        Expr::Node { id, .. } => Some(id),
+        Expr::Constant(_) => None,
+    };
+    results.iter().filter_map(node).collect()
+}
+
+/// A node that the results need.
+struct Live {
+    op: Op,
+    /// How often it is read.
+    uses: usize,
+    /// The length of the longest chain of operations up to it.
+    depth: usize,
+    read_by_sum: bool,
+    /// Whether a sum that reads it may do the multiplication: it is a product that is read once.
+    can_fuse: bool,
+    /// What it is read as, once that is known.
+    made: Option<Operand>,
+}
+
+/// The nodes that the results need, in order.
+fn live(
+    graph: &Graph,
+    results: &[Expr<'_>],
+    at_hand: impl Fn(NodeId) -> Option<Operand>,
+) -> (Vec<NodeId>, NodeMap<Live>) {
+    let mut nodes: NodeMap<Live> = NodeMap::new(graph);
+    let mut order = Vec::new();
+    let mut stack = nodes_of(results);
+    while let Some(id) = stack.pop() {
+        if let Some(node) = nodes.get_mut(id) {
+            node.uses += 1;
+            continue;
+        }
+        let (op, made) = (graph.op(id), at_hand(id));
+        if made.is_none() {
+            for operand in op.operands() {
+                stack.push(operand);
+            }
+        }
+        nodes.insert(id, Live { op, uses: 1, depth: 0, read_by_sum: false, can_fuse: false, made });
+        order.push(id);
+    }
+    order.sort_unstable_by_key(|id| id.index());
+    for &id in &order {
+        let op = nodes[id].op;
+        let is_sum = matches!(op, Op::Add(..) | Op::Sub(..));
+        let mut depth = 0;
+        for operand in op.operands() {
+            // What is at hand has operands that nobody needs.
+            if let Some(operand) = nodes.get_mut(operand) {
+                operand.read_by_sum |= is_sum;
+                depth = depth.max(operand.depth + 1);
+            }
+        }
+        if let Some(node) = nodes.get_mut(id) {
+            node.depth = depth;
+            node.can_fuse =
+                matches!(op, Op::Mul(..) | Op::Scale(..)) && node.uses == 1 && node.made.is_none();
+        }
+    }
+    (order, nodes)
+}
+
+struct Builder<'g> {
     graph: &'g Graph,
     inputs: Inputs,
-    live: &'l Live,
-    at_hand: F,
-    made: FxHashMap<NodeId, Operand>,
+    nodes: NodeMap<Live>,
     /// The step that turns an angle into its sine and cosine.
     sines: FxHashMap<NodeId, usize>,
     steps: Vec<Step>,
 }
 
-impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
+impl Builder<'_> {
     fn node(&mut self, id: NodeId) {
-        if let Some(operand) = (self.at_hand)(id) {
-            self.made.insert(id, operand);
+        let Live { op, read_by_sum, can_fuse, made, .. } = self.nodes[id];
+        if made.is_some() || (can_fuse && read_by_sum) {
+            // It is at hand, or the sum that reads it decides what becomes of it.
             return;
         }
-        let source = match self.graph.op(id) {
-            Op::Constant(k) => Source::Constant(self.graph.number(k)),
+        let source = match op {
+            Op::Constant(k) => Source::Constant(self.graph.number(k).to_f64()),
             Op::Symbol(symbol) => Source::Input(self.inputs.meaning(symbol)),
             Op::Add(a, b) => match self.fused(a, b) {
                 Some((product, other)) => self.multiply_add(product, false, other, false),
@@ -104,22 +142,19 @@ impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
                 Some((product, other)) => self.multiply_add(product, product == b, other, other == b),
                 None => self.push(Operation::Add(self.operand(a), negated(self.operand(b)))),
             },
-            Op::Mul(..) | Op::Scale(..) if self.waits_for_its_sum(id) => return,
-            Op::Mul(a, b) => self.push(Operation::Mul(self.operand(a), self.operand(b))),
-            Op::Scale(k, a) => {
-                let (value, a) = (self.graph.number(k), self.operand(a));
-                if value == Number::integer(2) {
-                    self.push(Operation::Add(a, a))
-                } else {
-                    self.push(Operation::Mul(constant(value), a))
-                }
-            }
+            Op::Mul(..) | Op::Scale(..) => self.product(op),
             Op::Div(a, b) => self.push(Operation::Div(self.operand(a), self.operand(b))),
             Op::Sqrt(a) => self.push(Operation::Sqrt(self.operand(a))),
             Op::Sin(a) => Source::Sin(self.sin_cos(a)),
             Op::Cos(a) => Source::Cos(self.sin_cos(a)),
         };
-        self.made.insert(id, Operand { source, negative: false });
+        self.make(id, source);
+    }
+
+    fn make(&mut self, id: NodeId, source: Source) {
+        if let Some(node) = self.nodes.get_mut(id) {
+            node.made = Some(Operand { source, negative: false });
+        }
     }
 
     fn push(&mut self, operation: Operation) -> Source {
@@ -139,14 +174,12 @@ impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
     }
 
     fn operand(&self, id: NodeId) -> Operand {
-        *self.made.get(&id).expect("a node is made before it is read")
+        self.nodes[id].made.expect("a node is made before it is read")
     }
 
     fn result(&self, result: Expr<'_>) -> Operand {
         match result {
-            Expr::Constant(value) => {
-                Operand { source: Source::Constant(value.abs()), negative: value.is_negative() }
-            }
+            Expr::Constant(value) => Operand::constant(value),
             Expr::Node { id, negative, .. } => {
                 let value = self.operand(id);
                 Operand { negative: negative != value.negative, ..value }
@@ -154,47 +187,38 @@ impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
         }
     }
 
-    /// Whether a product is read once, by a sum: then the sum decides what becomes of it.
-    fn waits_for_its_sum(&self, id: NodeId) -> bool {
-        self.can_fuse(id) && self.live.read_by_sum.contains(&id)
-    }
-
-    fn can_fuse(&self, id: NodeId) -> bool {
-        let product = matches!(self.graph.op(id), Op::Mul(..) | Op::Scale(..));
-        product && self.live.uses[&id] == 1 && (self.at_hand)(id).is_none()
-    }
-
     /// Which operand of a sum is multiplied within it, and the other one. Of two candidates the one that is
     /// ready later.
     fn fused(&mut self, a: NodeId, b: NodeId) -> Option<(NodeId, NodeId)> {
-        let chosen = match (self.can_fuse(a), self.can_fuse(b)) {
+        let (first, second) = (&self.nodes[a], &self.nodes[b]);
+        let (product, other) = match (first.can_fuse, second.can_fuse) {
             (false, false) => return None,
             (true, false) => (a, b),
             (false, true) => (b, a),
-            (true, true) if self.live.depth[&a] >= self.live.depth[&b] => (a, b),
+            (true, true) if first.depth >= second.depth => (a, b),
             (true, true) => (b, a),
         };
-        if self.can_fuse(chosen.1) && !self.made.contains_key(&chosen.1) {
-            let source = self.product(chosen.1);
-            self.made.insert(chosen.1, Operand { source, negative: false });
+        let Live { op, can_fuse, made, .. } = self.nodes[other];
+        if can_fuse && made.is_none() {
+            let source = self.product(op);
+            self.make(other, source);
         }
-        Some(chosen)
+        Some((product, other))
     }
 
-    fn factors(&self, id: NodeId) -> (Operand, Operand) {
-        match self.graph.op(id) {
+    fn factors(&self, op: Op) -> (Operand, Operand) {
+        match op {
             Op::Mul(a, b) => (self.operand(a), self.operand(b)),
-            Op::Scale(k, a) => (constant(self.graph.number(k)), self.operand(a)),
+            Op::Scale(k, a) => (Operand::constant(self.graph.number(k)), self.operand(a)),
             op => unreachable!("{op:?} is no product"),
         }
     }
 
-    fn product(&mut self, id: NodeId) -> Source {
-        let (a, b) = self.factors(id);
-        if a == constant(Number::integer(2)) {
-            self.push(Operation::Add(b, b))
-        } else {
-            self.push(Operation::Mul(a, b))
+    fn product(&mut self, op: Op) -> Source {
+        let (a, b) = self.factors(op);
+        match a.source {
+            Source::Constant(2.0) if !a.negative => self.push(Operation::Add(b, b)),
+            _ => self.push(Operation::Mul(a, b)),
         }
     }
 
@@ -205,15 +229,11 @@ impl<F: Fn(NodeId) -> Option<Operand>> Builder<'_, '_, F> {
         other: NodeId,
         minus_other: bool,
     ) -> Source {
-        let (a, b) = self.factors(product);
+        let (a, b) = self.factors(self.nodes[product].op);
         let a = if minus_product { negated(a) } else { a };
         let other = if minus_other { negated(self.operand(other)) } else { self.operand(other) };
         self.push(Operation::MulAdd(a, b, other))
     }
-}
-
-fn constant(value: Number) -> Operand {
-    Operand { source: Source::Constant(value), negative: false }
 }
 
 fn negated(operand: Operand) -> Operand {

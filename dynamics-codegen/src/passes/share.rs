@@ -11,9 +11,7 @@
 mod candidates;
 mod terms;
 
-use rustc_hash::{FxHashMap, FxHashSet};
-
-use crate::symbolic::{Expr, Graph, NodeId, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op};
 use terms::{Atom, Coefficient, Definitions, ONE, Term};
 
 /// A program with more terms than this is flattened but not searched: the search would not pay for its time.
@@ -40,13 +38,19 @@ pub fn share<'g>(graph: &'g Graph, results: &[Expr<'g>], is_leaf: impl Fn(NodeId
 struct Flattened<'g> {
     graph: &'g Graph,
     definitions: Definitions,
-    /// The node that each atom stands for; those that come later were extracted.
-    nodes: Vec<NodeId>,
-    atoms: FxHashMap<NodeId, Atom>,
-    /// Atoms that are computed otherwise: quotients, roots, sines.
-    opaque: FxHashSet<NodeId>,
+    /// What each atom stands for; those that come later were extracted.
+    origins: Vec<Origin>,
+    atoms: NodeMap<Atom>,
     /// The atoms that results and opaque operations read: those keep their own value.
     pinned: Vec<Atom>,
+}
+
+/// What an atom stands for.
+struct Origin {
+    node: NodeId,
+    is_read: bool,
+    /// Whether it is computed otherwise: a quotient, a root, a sine.
+    is_opaque: bool,
 }
 
 impl<'g> Flattened<'g> {
@@ -55,34 +59,34 @@ impl<'g> Flattened<'g> {
         let mut flat = Self {
             graph,
             definitions: Definitions::new(),
-            nodes: Vec::new(),
-            atoms: FxHashMap::default(),
-            opaque: FxHashSet::default(),
+            origins: Vec::new(),
+            atoms: NodeMap::new(graph),
             pinned: Vec::new(),
         };
-        let mut waiting: Vec<NodeId> = Vec::new();
+        let mut waiting: Vec<Atom> = Vec::new();
         for result in results {
             if let Expr::Node { id, .. } = *result {
                 flat.pin(id, &mut waiting);
             }
         }
-        let mut seen = FxHashSet::default();
-        while let Some(id) = waiting.pop() {
-            if !seen.insert(id) || is_leaf(id) {
+        while let Some(atom) = waiting.pop() {
+            let origin = &mut flat.origins[atom.index()];
+            let id = origin.node;
+            if std::mem::replace(&mut origin.is_read, true) || is_leaf(id) {
                 continue;
             }
             match graph.op(id) {
                 Op::Constant(_) | Op::Symbol(_) => {}
                 Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Scale(..) => {
                     let terms = flat.terms_of(id, &uses, is_leaf);
-                    let atoms = terms.iter().flat_map(|term| flat.definitions.atoms(term.monomial).to_vec());
-                    waiting.extend(atoms.map(|atom| flat.nodes[atom.index()]));
-                    let atom = flat.atom(id);
+                    for term in &terms {
+                        waiting.extend_from_slice(flat.definitions.atoms(term.monomial));
+                    }
                     flat.definitions.define(atom, terms);
                 }
                 op => {
-                    flat.opaque.insert(id);
-                    for operand in op.operands().into_iter().flatten() {
+                    flat.origins[atom.index()].is_opaque = true;
+                    for operand in op.operands() {
                         flat.pin(operand, &mut waiting);
                     }
                 }
@@ -93,30 +97,32 @@ impl<'g> Flattened<'g> {
 
     /// The atom of a node, made if it is new.
     fn atom(&mut self, id: NodeId) -> Atom {
-        let (nodes, definitions) = (&mut self.nodes, &mut self.definitions);
-        *self.atoms.entry(id).or_insert_with(|| {
-            nodes.push(id);
-            definitions.new_atom()
-        })
+        if let Some(&known) = self.atoms.get(id) {
+            return known;
+        }
+        let atom = self.definitions.new_atom();
+        self.origins.push(Origin { node: id, is_read: false, is_opaque: false });
+        self.atoms.insert(id, atom);
+        atom
     }
 
-    fn pin(&mut self, id: NodeId, waiting: &mut Vec<NodeId>) {
+    fn pin(&mut self, id: NodeId, waiting: &mut Vec<Atom>) {
         let atom = self.atom(id);
         self.pinned.push(atom);
-        waiting.push(id);
+        waiting.push(atom);
     }
 
     /// The terms of a sum or product, through operands that nobody else reads.
     fn terms_of(
         &mut self,
         root: NodeId,
-        uses: &FxHashMap<NodeId, usize>,
+        uses: &NodeMap<usize>,
         is_leaf: &impl Fn(NodeId) -> bool,
     ) -> Vec<Term> {
         let mut terms = Vec::new();
         let mut stack = vec![(root, false)];
         while let Some((id, negative)) = stack.pop() {
-            let inside = id == root || (uses[&id] == 1 && !is_leaf(id));
+            let inside = id == root || (uses[id] == 1 && !is_leaf(id));
             match self.graph.op(id) {
                 Op::Add(a, b) if inside => stack.extend([(b, negative), (a, negative)]),
                 Op::Sub(a, b) if inside => stack.extend([(b, !negative), (a, negative)]),
@@ -136,13 +142,13 @@ impl<'g> Flattened<'g> {
         &mut self,
         root: NodeId,
         inside: bool,
-        uses: &FxHashMap<NodeId, usize>,
+        uses: &NodeMap<usize>,
         is_leaf: &impl Fn(NodeId) -> bool,
     ) -> Term {
         let (mut coefficient, mut atoms) = (ONE, Vec::new());
         let mut stack = vec![(root, inside)];
         while let Some((id, inside)) = stack.pop() {
-            let enters = |x: NodeId| (x, uses[&x] == 1 && !is_leaf(x));
+            let enters = |x: NodeId| (x, uses[x] == 1 && !is_leaf(x));
             match self.graph.op(id) {
                 Op::Mul(a, b) if inside => stack.extend([enters(a), enters(b)]),
                 Op::Scale(k, a) if inside => {
@@ -165,7 +171,7 @@ impl<'g> Flattened<'g> {
         loop {
             let mut uses = self.definitions.count_uses();
             for atom in &self.pinned {
-                *uses.entry(*atom).or_insert(0) += 2;
+                uses[atom.index()] += 2;
             }
             let mut changed = false;
             for atom in self.definitions.order() {
@@ -200,13 +206,13 @@ impl<'g> Flattened<'g> {
 
     /// The results as expressions again.
     fn rebuild(&mut self, results: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let mut known: FxHashMap<Atom, Expr<'g>> = FxHashMap::default();
+        let mut known: Vec<Option<Expr<'g>>> = vec![None; self.definitions.len()];
         let mut rebuilt = Vec::with_capacity(results.len());
         for result in results {
             rebuilt.push(match *result {
                 Expr::Constant(_) => *result,
                 Expr::Node { id, negative, .. } => {
-                    let value = self.expression(self.atoms[&id], &mut known);
+                    let value = self.expression(self.atoms[id], &mut known);
                     if negative { -value } else { value }
                 }
             });
@@ -215,90 +221,104 @@ impl<'g> Flattened<'g> {
     }
 
     /// The expression of an atom, operands first, without recursion.
-    fn expression(&self, root: Atom, known: &mut FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+    fn expression(&self, root: Atom, known: &mut [Option<Expr<'g>>]) -> Expr<'g> {
         let mut stack = vec![root];
         while let Some(&atom) = stack.last() {
             let waiting = stack.len();
-            if !known.contains_key(&atom) {
-                let operands = self.operands(atom);
-                stack.extend(operands.into_iter().filter(|x| !known.contains_key(x)));
-            }
-            if stack.len() == waiting {
-                if !known.contains_key(&atom) {
-                    let value = self.value(atom, known);
-                    known.insert(atom, value);
-                }
+            if known[atom.index()].is_some() {
                 stack.pop();
+                continue;
+            }
+            self.push_unknown(atom, known, &mut stack);
+            if stack.len() == waiting {
+                known[atom.index()] = Some(self.value(atom, known));
             }
         }
-        known[&root]
+        value_of(root, known)
     }
 
-    fn operands(&self, atom: Atom) -> Vec<Atom> {
+    /// The atoms that an atom is made of and whose expressions are not known yet.
+    fn push_unknown(&self, atom: Atom, known: &[Option<Expr<'g>>], stack: &mut Vec<Atom>) {
+        let mut push = |atom: Atom| {
+            if known[atom.index()].is_none() {
+                stack.push(atom);
+            }
+        };
         if let Some(terms) = self.definitions.terms(atom) {
-            return terms.iter().flat_map(|term| self.definitions.atoms(term.monomial).to_vec()).collect();
-        }
-        match self.opaque_op(atom) {
-            Some(op) => op.operands().into_iter().flatten().map(|id| self.atoms[&id]).collect(),
-            None => Vec::new(),
+            for term in terms {
+                for &atom in self.definitions.atoms(term.monomial) {
+                    push(atom);
+                }
+            }
+        } else if let Some(op) = self.opaque_op(atom) {
+            for operand in op.operands() {
+                push(self.atoms[operand]);
+            }
         }
     }
 
     fn opaque_op(&self, atom: Atom) -> Option<Op> {
-        let id = self.nodes.get(atom.index()).filter(|id| self.opaque.contains(*id))?;
-        Some(self.graph.op(*id))
+        let origin = self.origins.get(atom.index()).filter(|origin| origin.is_opaque)?;
+        Some(self.graph.op(origin.node))
     }
 
-    fn value(&self, atom: Atom, known: &FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+    fn value(&self, atom: Atom, known: &[Option<Expr<'g>>]) -> Expr<'g> {
         if let Some(terms) = self.definitions.terms(atom) {
-            let (positive, negative): (Vec<&Term>, Vec<&Term>) =
-                terms.iter().partition(|term| term.coefficient.is_positive());
-            let terms = positive.into_iter().chain(negative);
-            return terms.fold(Expr::ZERO, |sum, term| sum + self.term(term, known));
+            let mut sum = Expr::ZERO;
+            for first in [true, false] {
+                for term in terms {
+                    if term.coefficient.is_positive() == first {
+                        sum = sum + self.term(term, known);
+                    }
+                }
+            }
+            return sum;
         }
-        let of = |id: NodeId| known[&self.atoms[&id]];
+        let of = |id: NodeId| value_of(self.atoms[id], known);
         match self.opaque_op(atom) {
             Some(Op::Div(a, b)) => of(a) / of(b),
             Some(Op::Sin(a)) => of(a).sin(),
             Some(Op::Cos(a)) => of(a).cos(),
             Some(Op::Sqrt(a)) => of(a).sqrt().expect("a root that was made before"),
-            _ => Expr::of_node(self.graph, self.nodes[atom.index()]),
+            _ => Expr::of_node(self.graph, self.origins[atom.index()].node),
         }
     }
 
-    fn term(&self, term: &Term, known: &FxHashMap<Atom, Expr<'g>>) -> Expr<'g> {
+    fn term(&self, term: &Term, known: &[Option<Expr<'g>>]) -> Expr<'g> {
         let atoms = self.definitions.atoms(term.monomial).iter();
-        let product = atoms.map(|atom| known[atom]).reduce(|a, b| a * b);
+        let product = atoms.map(|&atom| value_of(atom, known)).reduce(|a, b| a * b);
         let value = Expr::Constant(self.definitions.value(term.coefficient));
         product.map_or(value, |product| value * product)
     }
 }
 
+fn value_of<'g>(atom: Atom, known: &[Option<Expr<'g>>]) -> Expr<'g> {
+    known[atom.index()].expect("operands are known before what is made of them")
+}
+
 /// How often live nodes read each other; results count twice, so that they keep their own value.
-fn count_uses(
-    graph: &Graph,
-    results: &[Expr<'_>],
-    is_leaf: &impl Fn(NodeId) -> bool,
-) -> FxHashMap<NodeId, usize> {
-    let mut uses: FxHashMap<NodeId, usize> = FxHashMap::default();
+fn count_uses(graph: &Graph, results: &[Expr<'_>], is_leaf: &impl Fn(NodeId) -> bool) -> NodeMap<usize> {
+    let mut uses = NodeMap::new(graph);
     let mut stack = Vec::new();
-    let read = |id: NodeId, times: usize, stack: &mut Vec<NodeId>, uses: &mut FxHashMap<NodeId, usize>| {
-        let count = uses.entry(id).or_insert(0);
-        if *count == 0 && !is_leaf(id) {
-            stack.push(id);
+    let mut read = |id: NodeId, times: usize, stack: &mut Vec<NodeId>| match uses.get_mut(id) {
+        Some(count) => *count += times,
+        None => {
+            uses.insert(id, times);
+            if !is_leaf(id) {
+                stack.push(id);
+            }
         }
-        *count += times;
     };
     for result in results {
         if let Expr::Node { id, .. } = *result {
-            read(id, 2, &mut stack, &mut uses);
+            read(id, 2, &mut stack);
         }
     }
     while let Some(id) = stack.pop() {
         let op = graph.op(id);
         let times = if matches!(op, Op::Add(..) | Op::Sub(..) | Op::Mul(..) | Op::Scale(..)) { 1 } else { 2 };
-        for operand in op.operands().into_iter().flatten() {
-            read(operand, times, &mut stack, &mut uses);
+        for operand in op.operands() {
+            read(operand, times, &mut stack);
         }
     }
     uses

@@ -5,6 +5,8 @@
 //! are compared by their residual: their forward error explodes for a mass matrix that is ill-conditioned and
 //! valid all the same.
 
+use std::cell::OnceCell;
+
 use super::{Compiled, CompiledMethod, Plan, Program, regression};
 use crate::mechanics::equations::{Argument, Input, Method};
 use crate::mechanics::plain::{ForwardDynamicsDerivatives, Oracle, Rows, total_mass};
@@ -58,8 +60,12 @@ struct Sample {
     v: Vec<f64>,
     a: Vec<f64>,
     tau: Vec<f64>,
+    mass_matrix: Rows,
     /// The largest entry of the mass matrix: the size of what acts at speeds of one.
     inertia: f64,
+    /// Computed when first asked for.
+    coriolis_matrix: OnceCell<Rows>,
+    acceleration: OnceCell<Option<Vec<f64>>>,
 }
 
 impl Sample {
@@ -77,8 +83,10 @@ impl Sample {
             .companion
             .preparation
             .evaluate(|input| read(input, &parameters, [&[], &[], &[], &[]]), &[]);
-        let inertia = largest(&Oracle::new(&tree).mass_matrix(&q).concat());
-        Self { tree, parameters, fields, q, v, a, tau, inertia }
+        let mass_matrix = Oracle::new(&tree).mass_matrix(&q);
+        let inertia = largest(&mass_matrix.concat());
+        let (coriolis_matrix, acceleration) = (OnceCell::new(), OnceCell::new());
+        Self { tree, parameters, fields, q, v, a, tau, mass_matrix, inertia, coriolis_matrix, acceleration }
     }
 
     fn is_defined(&self) -> bool {
@@ -92,6 +100,16 @@ impl Sample {
         program.evaluate(|input| read(input, &self.parameters, vectors), &self.fields)
     }
 
+    fn coriolis_matrix(&self) -> &Rows {
+        self.coriolis_matrix.get_or_init(|| Oracle::new(&self.tree).coriolis_matrix(&self.q, &self.v))
+    }
+
+    /// Forward dynamics, if the mass matrix is positive definite in doubles.
+    fn acceleration(&self) -> Option<&Vec<f64>> {
+        let Self { q, v, tau, .. } = self;
+        self.acceleration.get_or_init(|| Oracle::new(&self.tree).forward_dynamics(q, v, tau)).as_ref()
+    }
+
     /// How far the program is off.
     fn error(&self, method: Method, program: &Program, model: &Model<'_>, compiled: &Compiled<'_>) -> f64 {
         let Self { q, v, a, tau, tree, .. } = self;
@@ -100,8 +118,8 @@ impl Sample {
         let inertia = self.inertia;
         let off = |expected: Vec<f64>| distance(&found, &expected, inertia);
         match method {
-            Method::MassMatrix => off(oracle.mass_matrix(q).concat()),
-            Method::CoriolisMatrix => off(oracle.coriolis_matrix(q, v).concat()),
+            Method::MassMatrix => off(self.mass_matrix.concat()),
+            Method::CoriolisMatrix => off(self.coriolis_matrix().concat()),
             Method::GravityForces => off(oracle.gravity_forces(q)),
             Method::BiasForces => off(oracle.bias_forces(q, v)),
             Method::InverseDynamics => off(oracle.inverse_dynamics(q, v, a)),
@@ -117,11 +135,7 @@ impl Sample {
             Method::EquationsOfMotion => self.blocks_off(
                 &found,
                 inertia,
-                &[
-                    oracle.mass_matrix(q).concat(),
-                    oracle.coriolis_matrix(q, v).concat(),
-                    oracle.gravity_forces(q),
-                ],
+                &[self.mass_matrix.concat(), self.coriolis_matrix().concat(), oracle.gravity_forces(q)],
             ),
             Method::InverseDynamicsDerivatives => {
                 let expected = oracle.inverse_dynamics_derivatives(q, v, a);
@@ -131,12 +145,12 @@ impl Sample {
                     &[expected.dtau_dq.concat(), expected.dtau_dv.concat(), expected.dtau_da.concat()],
                 )
             }
-            Method::ForwardDynamics => match oracle.forward_dynamics(q, v, tau) {
+            Method::ForwardDynamics => match self.acceleration() {
                 Some(_) => oracle.forward_dynamics_residual(q, v, tau, &found),
                 None => 0.0,
             },
-            Method::ForwardDynamicsDerivatives => match oracle.forward_dynamics(q, v, tau) {
-                Some(a) => oracle.forward_dynamics_derivatives_residual(q, v, &a, &self.derivatives(&found)),
+            Method::ForwardDynamicsDerivatives => match self.acceleration() {
+                Some(a) => oracle.forward_dynamics_derivatives_residual(q, v, a, &self.derivatives(&found)),
                 None => 0.0,
             },
             Method::CenterOfMass => off(oracle.center_of_mass(q)),

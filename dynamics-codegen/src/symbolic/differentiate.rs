@@ -1,20 +1,18 @@
 //! `∂/∂x` by the chain rule, forward, each node once.
 
-use rustc_hash::FxHashMap;
-
-use super::{Expr, Graph, NodeId, Number, Op, SymbolId};
+use super::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId};
 
 /// The derivatives of expressions with respect to one input, remembered node by node.
 pub struct Differentiator<'g> {
     graph: &'g Graph,
     symbol: SymbolId,
-    known: FxHashMap<NodeId, Expr<'g>>,
+    known: NodeMap<Expr<'g>>,
 }
 
 impl<'g> Differentiator<'g> {
     /// Differentiates with respect to `symbol`.
     pub fn new(graph: &'g Graph, symbol: SymbolId) -> Self {
-        Self { graph, symbol, known: FxHashMap::default() }
+        Self { graph, symbol, known: NodeMap::new(graph) }
     }
 
     /// `∂expr/∂symbol`
@@ -34,22 +32,21 @@ impl<'g> Differentiator<'g> {
         while let Some(&id) = stack.last() {
             let waiting = stack.len();
             let op = self.graph.op(id);
-            if !self.known.contains_key(&id) {
-                stack.extend(op.operands().into_iter().flatten().filter(|x| !self.known.contains_key(x)));
-            }
-            if stack.len() == waiting {
-                if !self.known.contains_key(&id) {
-                    let derivative = self.rule(id, op);
-                    self.known.insert(id, derivative);
-                }
+            if self.known.contains(id) {
                 stack.pop();
+                continue;
+            }
+            stack.extend(op.operands().filter(|&x| !self.known.contains(x)));
+            if stack.len() == waiting {
+                let derivative = self.rule(id, op);
+                self.known.insert(id, derivative);
             }
         }
-        self.known[&root]
+        self.known[root]
     }
 
     fn rule(&self, id: NodeId, op: Op) -> Expr<'g> {
-        let d = |x: NodeId| self.known[&x];
+        let d = |x: NodeId| self.known[x];
         let e = |x: NodeId| Expr::of_node(self.graph, x);
         match op {
             Op::Constant(_) => Expr::ZERO,

@@ -1,18 +1,18 @@
 //! The reference interpreter: the value of expressions at numbers.
 
-use super::{Expr, Graph, NodeId, Op, Real, SymbolId};
+use super::{Expr, Graph, NodeId, NodeMap, Op, Real, SymbolId};
 
 /// Evaluates nodes of a graph at one assignment of its inputs, each node once.
 pub struct Evaluator<'g, F, R = f64> {
     graph: &'g Graph,
-    values: Vec<Option<R>>,
+    values: NodeMap<R>,
     input: F,
 }
 
 impl<'g, R: Real, F: Fn(SymbolId) -> R> Evaluator<'g, F, R> {
     /// An evaluator that asks `input` for the value of each symbol.
     pub fn new(graph: &'g Graph, input: F) -> Self {
-        Self { graph, values: vec![None; graph.len()], input }
+        Self { graph, values: NodeMap::new(graph), input }
     }
 
     /// The value of `expr`.
@@ -32,35 +32,35 @@ impl<'g, R: Real, F: Fn(SymbolId) -> R> Evaluator<'g, F, R> {
         while let Some(&id) = stack.last() {
             let waiting = stack.len();
             let op = self.graph.op(id);
-            if self.values[id.index()].is_none() {
-                stack
-                    .extend(op.operands().into_iter().flatten().filter(|x| self.values[x.index()].is_none()));
+            if self.values.contains(id) {
+                stack.pop();
+                continue;
+            }
+            for operand in op.operands() {
+                if !self.values.contains(operand) {
+                    stack.push(operand);
+                }
             }
             if stack.len() == waiting {
                 let value = self.apply(op);
-                self.values[id.index()].get_or_insert(value);
-                stack.pop();
+                self.values.insert(id, value);
             }
         }
-        self.known(root)
-    }
-
-    fn known(&self, id: NodeId) -> R {
-        self.values[id.index()].expect("operands are evaluated before operations")
+        self.values[root]
     }
 
     fn apply(&self, op: Op) -> R {
         match op {
             Op::Constant(k) => R::of(self.graph.number(k)),
             Op::Symbol(symbol) => (self.input)(symbol),
-            Op::Add(a, b) => self.known(a) + self.known(b),
-            Op::Sub(a, b) => self.known(a) - self.known(b),
-            Op::Mul(a, b) => self.known(a) * self.known(b),
-            Op::Scale(k, a) => R::of(self.graph.number(k)) * self.known(a),
-            Op::Div(a, b) => self.known(a) / self.known(b),
-            Op::Sqrt(a) => self.known(a).sqrt(),
-            Op::Sin(a) => self.known(a).sin(),
-            Op::Cos(a) => self.known(a).cos(),
+            Op::Add(a, b) => self.values[a] + self.values[b],
+            Op::Sub(a, b) => self.values[a] - self.values[b],
+            Op::Mul(a, b) => self.values[a] * self.values[b],
+            Op::Scale(k, a) => R::of(self.graph.number(k)) * self.values[a],
+            Op::Div(a, b) => self.values[a] / self.values[b],
+            Op::Sqrt(a) => self.values[a].sqrt(),
+            Op::Sin(a) => self.values[a].sin(),
+            Op::Cos(a) => self.values[a].cos(),
         }
     }
 }

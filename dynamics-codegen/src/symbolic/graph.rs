@@ -52,12 +52,30 @@ pub enum Op {
 
 impl Op {
     /// The nodes that the operation reads.
-    pub fn operands(self) -> [Option<NodeId>; 2] {
-        match self {
-            Op::Constant(_) | Op::Symbol(_) => [None, None],
-            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => [Some(a), Some(b)],
-            Op::Scale(_, a) | Op::Sqrt(a) | Op::Sin(a) | Op::Cos(a) => [Some(a), None],
-        }
+    pub fn operands(self) -> Operands {
+        let (first, second) = match self {
+            Op::Constant(_) | Op::Symbol(_) => (None, None),
+            Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (Some(a), Some(b)),
+            Op::Scale(_, a) | Op::Sqrt(a) | Op::Sin(a) | Op::Cos(a) => (Some(a), None),
+        };
+        Operands { first, second }
+    }
+}
+
+/// The nodes that an operation reads, one after another. Iterators of arrays are slow where nothing is optimised.
+pub struct Operands {
+    first: Option<NodeId>,
+    second: Option<NodeId>,
+}
+
+impl Iterator for Operands {
+    type Item = NodeId;
+
+    fn next(&mut self) -> Option<NodeId> {
+        let next = self.first;
+        self.first = self.second;
+        self.second = None;
+        next
     }
 }
 
@@ -153,7 +171,7 @@ impl Graph {
         let known = match op {
             Op::Constant(_) => true,
             Op::Symbol(_) => false,
-            _ => op.operands().into_iter().flatten().all(|x| inner.parameter_only[x.index()]),
+            _ => op.operands().all(|x| inner.parameter_only[x.index()]),
         };
         inner.nodes.push(op);
         inner.parameter_only.push(known);

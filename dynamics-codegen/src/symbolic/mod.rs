@@ -6,12 +6,14 @@ mod differentiate;
 mod evaluate;
 mod expr;
 mod graph;
+mod node_map;
 pub mod number;
 mod real;
 
 pub use differentiate::Differentiator;
 pub use evaluate::Evaluator;
 pub use expr::Expr;
-pub use graph::{Graph, NodeId, Op, SymbolId};
+pub use graph::{Graph, NodeId, Op, Operands, SymbolId};
+pub use node_map::NodeMap;
 pub use number::Number;
 pub use real::Real;

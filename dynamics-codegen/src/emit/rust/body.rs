@@ -8,7 +8,6 @@ use std::fmt::Write as _;
 use super::names::{CALLED, Names, angle_suffix, component, entry};
 use crate::mechanics::equations::{Block, Input, Shape};
 use crate::passes::{Operand, Operation, Program, Sizes, Source};
-use crate::symbolic::Number;
 
 /// The most statements in one block.
 const BLOCK: usize = 250;
@@ -99,6 +98,8 @@ struct Writer<'a> {
     names: Names,
     /// The name that a step shall have because it is a result.
     result_names: Vec<Option<String>>,
+    /// For each step whether its sine and its cosine are read.
+    sines_read: Vec<(bool, bool)>,
     values: Vec<(Text, Option<Text>)>,
     statements: Vec<Statement>,
     inputs: Vec<(Input, String)>,
@@ -124,6 +125,7 @@ impl<'a> Writer<'a> {
             context,
             names,
             result_names,
+            sines_read: sines_read(program),
             values: Vec::with_capacity(program.steps.len()),
             statements: Vec::new(),
             inputs: Vec::new(),
@@ -162,19 +164,13 @@ impl<'a> Writer<'a> {
         let inputs = self.inputs_of(angle);
         let parameters = self.context.parameters;
         let suffix = angle_suffix(&inputs, |k| parameters[k].clone()).unwrap_or_else(|| format!("_{step}"));
-        let (reads_sin, reads_cos) = (self.is_read(Source::Sin(step)), self.is_read(Source::Cos(step)));
+        let (reads_sin, reads_cos) = self.sines_read[step];
         let sin = if reads_sin { self.names.fresh(&format!("s{suffix}")) } else { "_".to_owned() };
         let cos = if reads_cos { self.names.fresh(&format!("c{suffix}")) } else { "_".to_owned() };
         let mut call = self.operand(angle);
         call.text = format!("sin_cos({})", call.text);
         let statement = self.declare(vec![sin.clone(), cos.clone()], call);
         self.values.push((atom(sin, vec![statement]), Some(atom(cos, vec![statement]))));
-    }
-
-    /// Whether any step or result reads the value.
-    fn is_read(&self, source: Source) -> bool {
-        let operands = self.program.steps.iter().flat_map(|step| step.operation.operands());
-        operands.chain(self.program.results.iter().copied()).any(|operand| operand.source == source)
     }
 
     /// The inputs that an operand is directly made of.
@@ -276,16 +272,29 @@ impl<'a> Writer<'a> {
         name
     }
 
-    fn literal(&self, value: Number) -> Text {
-        let number = format!("{:?}", value.to_f64());
+    fn literal(&self, value: f64) -> Text {
+        // Zero has no sign.
+        let value = value + 0.0;
+        let number = format!("{value:?}");
         match &self.context.literals {
             Literals::Of(scalar) => atom(format!("{scalar}::of({number})"), Vec::new()),
-            Literals::Plain if value.is_negative() => {
-                Text { binding: Binding::Negation, ..atom(number, Vec::new()) }
-            }
+            Literals::Plain if value < 0.0 => Text { binding: Binding::Negation, ..atom(number, Vec::new()) },
             Literals::Plain => atom(number, Vec::new()),
         }
     }
+}
+
+fn sines_read(program: &Program) -> Vec<(bool, bool)> {
+    let mut read = vec![(false, false); program.steps.len()];
+    let operands = program.steps.iter().flat_map(|step| step.operation.operands());
+    for operand in operands.chain(program.results.iter().copied()) {
+        match operand.source {
+            Source::Sin(step) => read[step].0 = true,
+            Source::Cos(step) => read[step].1 = true,
+            _ => {}
+        }
+    }
+    read
 }
 
 /// The names of all entries of a method's result: `m00`, `tau3`; none for a number that is returned as it is.

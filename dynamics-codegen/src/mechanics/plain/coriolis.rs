@@ -9,7 +9,7 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::mass_matrix;
-use super::rnea::inertial_forces;
+use super::rnea::Placed;
 use super::six::{Matrix6, Six};
 use crate::model::{Motion, Tree};
 use crate::spatial::{Scalar, Vector3};
@@ -19,7 +19,8 @@ pub fn coriolis_matrix<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> Vec<Vec<S
     let n = tree.dof();
     let half = S::one() / S::from(2);
     let rest = vec![S::zero(); n];
-    let h = |v: &[S]| inertial_forces(tree, q, v, &rest);
+    let placed = Placed::at(tree, q);
+    let h = |v: &[S]| placed.inertial_forces(v, &rest);
 
     let h_v = h(v);
     let M = if tree.is_one_dof() { vec![] } else { mass_matrix(tree, q) };

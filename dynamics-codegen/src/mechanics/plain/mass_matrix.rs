@@ -6,7 +6,7 @@
 
 use super::kinematics::{jacobian_columns, link_poses};
 use super::passive;
-use super::six::Matrix6;
+use super::six::{Matrix6, Six};
 use crate::model::Tree;
 use crate::spatial::Scalar;
 
@@ -16,10 +16,13 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
     let mut M = vec![vec![S::zero(); tree.dof()]; tree.dof()];
     for (k, link) in tree.links.iter().enumerate() {
         let M_B = Matrix6::inertia(&link.inertia);
-        let J_B = jacobian_columns(tree, &poses, Some(k), poses[k].inverse());
-        for (j, &column) in J_B.iter().enumerate() {
+        let columns = jacobian_columns(tree, &poses, Some(k), poses[k].inverse());
+        // Of the other joints the link feels nothing.
+        let J_B: Vec<(usize, Six<S>)> =
+            columns.into_iter().enumerate().filter(|(_, column)| !column.is_zero()).collect();
+        for &(j, column) in &J_B {
             let momentum = M_B * column;
-            for (i, &other) in J_B.iter().enumerate() {
+            for &(i, other) in &J_B {
                 M[i][j] = M[i][j] + other.dot(momentum);
             }
         }

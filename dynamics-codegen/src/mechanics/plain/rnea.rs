@@ -4,10 +4,10 @@
 //! measured in the world and written in B; `A` is the spatial acceleration, not that of a point.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::kinematics::{joint_motion, link_velocities, motion_subspace, pose_in_parent};
+use super::kinematics::{joint_motion, motion_subspace, pose_in_parent};
 use super::passive;
 use super::six::{Matrix6, Six};
-use crate::model::Tree;
+use crate::model::{Link, Tree};
 use crate::spatial::{Scalar, Vector3};
 
 /// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)` and passive forces, N·m and N, positive along the joint's axis.
@@ -33,38 +33,63 @@ pub fn bias_forces<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> Vec<S> {
     inverse_dynamics(tree, q, v, &vec![S::zero(); tree.dof()])
 }
 
-/// `M(q)·a + C(q,v)·v`, as if there were no gravity.
-pub(super) fn inertial_forces<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
-    recursion(tree, Vector3::zero(), q, v, a)
-}
-
 /// Velocities and accelerations outward, forces inward, and what rotors need.
 fn recursion<S: Scalar>(tree: &Tree<S>, base: Vector3<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
-    let A_W = Six::new(base, Vector3::zero());
-    let V = link_velocities(tree, q, v);
-    // Ad(X_BP) of every link: motions from the parent to the link; transposed, forces back.
-    let X: Vec<Matrix6<S>> =
-        tree.links.iter().map(|link| Matrix6::adjoint(pose_in_parent(link, q).inverse())).collect();
+    Placed::at(tree, q).forces(base, v, a)
+}
 
-    let mut A: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
-    let mut F: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
-    for (k, link) in tree.links.iter().enumerate() {
-        let V_cross = Matrix6::cross(V[k]);
-        let A_P = link.parent.map_or(A_W, |parent| A[parent]);
-        let A_B = X[k] * A_P + joint_motion(link, a) + V_cross * joint_motion(link, v);
-        let M_B = Matrix6::inertia(&link.inertia);
-        F.push(M_B * A_B + (V_cross.transpose() * (M_B * V[k])).scale(-S::one()));
-        A.push(A_B);
-    }
+/// What of the recursion depends on the configuration alone, for many speeds.
+pub(super) struct Placed<'t, S> {
+    tree: &'t Tree<S>,
+    /// `Ad(X_BP)` of every link: motions from the parent to the link; transposed, forces back.
+    X: Vec<Matrix6<S>>,
+    /// The inertia of every link.
+    M: Vec<Matrix6<S>>,
+}
 
-    let mut tau = passive::rotors(tree, a);
-    for (k, link) in tree.links.iter().enumerate().rev() {
-        for (speed, S_B) in motion_subspace(link) {
-            tau[speed] = tau[speed] + S_B.dot(F[k]);
-        }
-        if let Some(parent) = link.parent {
-            F[parent] = F[parent] + X[k].transpose() * F[k];
+impl<'t, S: Scalar> Placed<'t, S> {
+    /// The tree at the configuration `q`.
+    pub(super) fn at(tree: &'t Tree<S>, q: &[S]) -> Self {
+        let adjoint = |link: &Link<S>| Matrix6::adjoint(pose_in_parent(link, q).inverse());
+        Self {
+            tree,
+            X: tree.links.iter().map(adjoint).collect(),
+            M: tree.links.iter().map(|link| Matrix6::inertia(&link.inertia)).collect(),
         }
     }
-    tau
+
+    /// `M(q)·a + C(q,v)·v`, as if there were no gravity.
+    pub(super) fn inertial_forces(&self, v: &[S], a: &[S]) -> Vec<S> {
+        self.forces(Vector3::zero(), v, a)
+    }
+
+    /// The forces while the world accelerates by `base`.
+    fn forces(&self, base: Vector3<S>, v: &[S], a: &[S]) -> Vec<S> {
+        let Self { tree, X, M } = self;
+        let A_W = Six::new(base, Vector3::zero());
+        let mut V: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
+        let mut A: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
+        let mut F: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
+        for (k, link) in tree.links.iter().enumerate() {
+            let (V_P, A_P) = link.parent.map_or((Six::zero(), A_W), |parent| (V[parent], A[parent]));
+            let V_J = joint_motion(link, v);
+            let V_B = X[k] * V_P + V_J;
+            let V_cross = Matrix6::cross(V_B);
+            let A_B = X[k] * A_P + joint_motion(link, a) + V_cross * V_J;
+            F.push(M[k] * A_B + (V_cross.transpose() * (M[k] * V_B)).scale(-S::one()));
+            A.push(A_B);
+            V.push(V_B);
+        }
+
+        let mut tau = passive::rotors(tree, a);
+        for (k, link) in tree.links.iter().enumerate().rev() {
+            for (speed, S_B) in motion_subspace(link) {
+                tau[speed] = tau[speed] + S_B.dot(F[k]);
+            }
+            if let Some(parent) = link.parent {
+                F[parent] = F[parent] + X[k].transpose() * F[k];
+            }
+        }
+        tau
+    }
 }

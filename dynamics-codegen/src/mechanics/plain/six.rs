@@ -43,6 +43,11 @@ impl<S: Scalar> Six<S> {
         Vector3([d, e, f])
     }
 
+    /// Whether every component is zero.
+    pub fn is_zero(self) -> bool {
+        self.0.into_iter().all(S::is_zero)
+    }
+
     /// `k·self`
     pub fn scale(self, k: S) -> Self {
         Self(self.0.map(|x| k * x))
@@ -50,7 +55,8 @@ impl<S: Scalar> Six<S> {
 
     /// The sum of the products of components; of a motion and a force it is power.
     pub fn dot(self, other: Self) -> S {
-        self.0.into_iter().zip(other.0).fold(S::zero(), |sum, (x, y)| sum + x * y)
+        let ([a, b, c, d, e, f], [u, v, w, x, y, z]) = (self.0, other.0);
+        a * u + b * v + c * w + d * x + e * y + f * z
     }
 }
 

@@ -1,7 +1,5 @@
 //! Which pairs are worth a value of their own.
 
-use rustc_hash::FxHashMap;
-
 use super::cost;
 use super::terms::{Atom, Coefficient, Definitions, Monomial, ONE, Term};
 
@@ -39,11 +37,47 @@ struct Place {
     other: Coefficient,
 }
 
+/// Where pairs occur: a list for each first part, by the second. Sorting short lists is quicker than hashing where
+/// nothing is optimised, and no order depends on a hash.
+struct Occurrences<K> {
+    by_first: Vec<Vec<(K, Place)>>,
+}
+
+impl<K: Ord + Copy> Occurrences<K> {
+    fn new() -> Self {
+        Self { by_first: Vec::new() }
+    }
+
+    fn add(&mut self, first: usize, second: K, place: Place) {
+        if first >= self.by_first.len() {
+            self.by_first.resize_with(first + 1, Vec::new);
+        }
+        self.by_first[first].push((second, place));
+    }
+
+    /// Hands out each pair with its places, in order.
+    fn for_each(self, mut f: impl FnMut(usize, K, &[(K, Place)])) {
+        for (first, mut list) in self.by_first.into_iter().enumerate() {
+            list.sort_by_key(|(second, _)| *second);
+            let mut rest = list.as_slice();
+            while let [(second, _), ..] = rest {
+                let end = rest.iter().position(|(other, _)| other != second).unwrap_or(rest.len());
+                f(first, *second, &rest[..end]);
+                rest = &rest[end..];
+            }
+        }
+    }
+}
+
+fn places<K>(occurrences: &[(K, Place)]) -> Vec<Place> {
+    occurrences.iter().map(|(_, place)| *place).collect()
+}
+
 /// All pairs that save something, the best first.
 pub(super) fn find(definitions: &mut Definitions) -> Vec<Candidate> {
-    let mut products: FxHashMap<(Atom, Atom), Vec<Place>> = FxHashMap::default();
-    let mut multiples: FxHashMap<(Coefficient, Atom), Vec<Place>> = FxHashMap::default();
-    let mut sums: FxHashMap<(Monomial, Monomial, Coefficient), Vec<Place>> = FxHashMap::default();
+    let mut products: Occurrences<Atom> = Occurrences::new();
+    let mut multiples: Occurrences<Atom> = Occurrences::new();
+    let mut sums: Occurrences<(Monomial, Coefficient)> = Occurrences::new();
     for reader in definitions.order() {
         let terms = definitions.terms(reader).unwrap_or_default().to_vec();
         for term in &terms {
@@ -54,34 +88,29 @@ pub(super) fn find(definitions: &mut Definitions) -> Vec<Candidate> {
         }
     }
     let mut found: Vec<Candidate> = Vec::new();
-    let repeated = |places: &Vec<Place>| places.len() >= 2;
-    let saved = |places: &Vec<Place>| places.len() as i64 - 1;
-    for ((a, b), places) in sorted(products).into_iter().filter(|(_, places)| repeated(places)) {
-        found.push(Candidate { saves: saved(&places), pair: Pair::Product(a, b), places });
-    }
-    for ((k, a), places) in sorted(multiples).into_iter().filter(|(_, places)| repeated(places)) {
-        found.push(Candidate { saves: saved(&places), pair: Pair::Multiple(k, a), places });
-    }
-    for (key, places) in sorted(sums) {
-        found.extend(sum_candidate(definitions, key, places));
-    }
+    let mut repeated = |pair: Pair, occurrences: &[(Atom, Place)]| {
+        if occurrences.len() >= 2 {
+            let saves = occurrences.len() as i64 - 1;
+            found.push(Candidate { saves, pair, places: places(occurrences) });
+        }
+    };
+    products.for_each(|a, b, occurrences| repeated(Pair::Product(Atom::of(a), b), occurrences));
+    multiples.for_each(|k, a, occurrences| repeated(Pair::Multiple(Coefficient::of(k), a), occurrences));
+    sums.for_each(|x, (y, ratio), occurrences| {
+        if may_save(occurrences) {
+            found.extend(sum_candidate(definitions, (Monomial::of(x), y, ratio), places(occurrences)));
+        }
+    });
     found.sort_by(|a, b| b.saves.cmp(&a.saves).then(a.pair.cmp(&b.pair)));
     found
-}
-
-/// The entries of a map in the order of their keys: nothing may depend on a hash.
-fn sorted<K: Ord + Copy, V>(map: FxHashMap<K, V>) -> Vec<(K, V)> {
-    let mut entries: Vec<(K, V)> = map.into_iter().collect();
-    entries.sort_unstable_by_key(|(key, _)| *key);
-    entries
 }
 
 fn collect_products(
     definitions: &Definitions,
     reader: Atom,
     term: &Term,
-    products: &mut FxHashMap<(Atom, Atom), Vec<Place>>,
-    multiples: &mut FxHashMap<(Coefficient, Atom), Vec<Place>>,
+    products: &mut Occurrences<Atom>,
+    multiples: &mut Occurrences<Atom>,
 ) {
     let place = Place {
         reader,
@@ -96,11 +125,11 @@ fn collect_products(
         for (j, &b) in atoms.iter().enumerate().skip(i + 1) {
             let seen = atoms[..i].contains(&a) || atoms[i + 1..j].contains(&b);
             if !seen {
-                products.entry((a, b)).or_default().push(place);
+                products.add(a.index(), b, place);
             }
         }
         if !term.coefficient.is_unit() && !atoms[..i].contains(&a) {
-            multiples.entry((term.coefficient.magnitude(), a)).or_default().push(place);
+            multiples.add(term.coefficient.index(), a, place);
         }
     }
 }
@@ -109,7 +138,7 @@ fn collect_sums(
     definitions: &mut Definitions,
     reader: Atom,
     terms: &[Term],
-    sums: &mut FxHashMap<(Monomial, Monomial, Coefficient), Vec<Place>>,
+    sums: &mut Occurrences<(Monomial, Coefficient)>,
 ) {
     for (i, a) in terms.iter().enumerate() {
         for b in &terms[i + 1..] {
@@ -129,9 +158,16 @@ fn collect_sums(
                 scale: a.coefficient,
                 other: b.coefficient,
             };
-            sums.entry((x, y, ratio)).or_default().push(place);
+            sums.add(x.index(), (y, ratio), place);
         }
     }
+}
+
+/// Whether a sum can save something: one that occurs once only if that factors something out of it.
+fn may_save<K>(occurrences: &[(K, Place)]) -> bool {
+    let [(_, place)] = occurrences else { return true };
+    let same_size = place.scale.magnitude() == place.other.magnitude();
+    place.factor != Monomial::EMPTY || (same_size && !place.scale.is_unit())
 }
 
 /// The best scale at which to share `x + ratio·y`, if any saves something.
@@ -140,12 +176,6 @@ fn sum_candidate(
     (x, y, ratio): (Monomial, Monomial, Coefficient),
     places: Vec<Place>,
 ) -> Option<Candidate> {
-    if let [place] = places.as_slice() {
-        let same_size = place.scale.magnitude() == place.other.magnitude();
-        if place.factor == Monomial::EMPTY && (!same_size || place.scale.is_unit()) {
-            return None;
-        }
-    }
     let mut scales = vec![ONE];
     if !ratio.is_unit() {
         scales.extend(places.iter().take(8).map(|place| place.scale.magnitude()));

@@ -26,6 +26,16 @@ pub(super) struct Coefficient(i32);
 pub(super) const ONE: Coefficient = Coefficient(1);
 
 impl Coefficient {
+    /// The positive coefficient at a place of the table, from one on.
+    pub(super) fn of(index: usize) -> Self {
+        Self(i32::try_from(index).expect("fewer than 2^31 coefficients"))
+    }
+
+    /// The place of its magnitude in the table, from one on.
+    pub(super) fn index(self) -> usize {
+        self.0.unsigned_abs() as usize
+    }
+
     pub(super) fn is_unit(self) -> bool {
         self.0.abs() == 1
     }
@@ -52,6 +62,14 @@ pub(super) struct Monomial(u32);
 
 impl Monomial {
     pub(super) const EMPTY: Self = Self(0);
+
+    pub(super) fn of(index: usize) -> Self {
+        Self(u32::try_from(index).expect("fewer than 2^32 products"))
+    }
+
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
 }
 
 /// A coefficient times a product of atoms.
@@ -122,7 +140,7 @@ impl Definitions {
     }
 
     pub(super) fn atoms(&self, monomial: Monomial) -> &[Atom] {
-        &self.monomials[monomial.0 as usize]
+        &self.monomials[monomial.index()]
     }
 
     /// The product of atoms.
@@ -131,7 +149,7 @@ impl Definitions {
         if let Some(&known) = self.monomial_index.get(atoms.as_slice()) {
             return known;
         }
-        let monomial = Monomial(u32::try_from(self.monomials.len()).expect("fewer than 2^32 products"));
+        let monomial = Monomial::of(self.monomials.len());
         let atoms = atoms.into_boxed_slice();
         self.monomials.push(atoms.clone());
         self.monomial_index.insert(atoms, monomial);
@@ -157,22 +175,16 @@ impl Definitions {
 
     /// The atoms that both products have.
     pub(super) fn common(&mut self, a: Monomial, b: Monomial) -> Monomial {
-        let (mut x, mut y) = (self.atoms(a).iter().peekable(), self.atoms(b).iter().peekable());
+        let (x, y) = (self.atoms(a), self.atoms(b));
+        let (mut i, mut j) = (0, 0);
         let mut common = Vec::new();
-        while let (Some(&&a), Some(&&b)) = (x.peek(), y.peek()) {
-            match a.cmp(&b) {
-                std::cmp::Ordering::Less => {
-                    x.next();
-                }
-                std::cmp::Ordering::Greater => {
-                    y.next();
-                }
-                std::cmp::Ordering::Equal => {
-                    common.push(a);
-                    x.next();
-                    y.next();
-                }
+        while i < x.len() && j < y.len() {
+            let (a, b) = (x[i].index(), y[j].index());
+            if a == b {
+                common.push(x[i]);
             }
+            i += usize::from(a <= b);
+            j += usize::from(b <= a);
         }
         if common.is_empty() { Monomial::EMPTY } else { self.monomial(common) }
     }
@@ -189,7 +201,7 @@ impl Definitions {
     }
 
     pub(super) fn value(&self, coefficient: Coefficient) -> Number {
-        let magnitude = self.magnitudes[coefficient.0.unsigned_abs() as usize - 1];
+        let magnitude = self.magnitudes[coefficient.index() - 1];
         if coefficient.is_positive() { magnitude } else { -magnitude }
     }
 
@@ -239,11 +251,14 @@ impl Definitions {
     }
 
     /// How often each atom occurs in products.
-    pub(super) fn count_uses(&self) -> FxHashMap<Atom, usize> {
-        let mut uses = FxHashMap::default();
-        for term in self.terms.iter().flatten().flatten() {
-            for &atom in self.atoms(term.monomial) {
-                *uses.entry(atom).or_insert(0) += 1;
+    pub(super) fn count_uses(&self) -> Vec<u32> {
+        let mut uses = vec![0; self.terms.len()];
+        for terms in &self.terms {
+            let Some(terms) = terms else { continue };
+            for term in terms {
+                for atom in self.atoms(term.monomial) {
+                    uses[atom.index()] += 1;
+                }
             }
         }
         uses
@@ -251,9 +266,12 @@ impl Definitions {
 
     /// Replaces atoms of `reader`'s definition that nobody else reads by their own definitions, where that
     /// keeps a sum of products. Says whether anything changed.
-    pub(super) fn merge_into(&mut self, reader: Atom, uses: &FxHashMap<Atom, usize>) -> bool {
-        let Some(terms) = self.terms[reader.index()].clone() else { return false };
-        let mut changed = false;
+    pub(super) fn merge_into(&mut self, reader: Atom, uses: &[u32]) -> bool {
+        let Some(terms) = self.terms(reader) else { return false };
+        if !terms.iter().any(|term| self.mergeable(*term, uses).is_some()) {
+            return false;
+        }
+        let terms = terms.to_vec();
         let mut merged = Vec::with_capacity(terms.len());
         for term in terms {
             match self.mergeable(term, uses) {
@@ -267,22 +285,24 @@ impl Definitions {
                         let monomial = self.times(rest, part.monomial);
                         self.add_term(&mut merged, Term { coefficient, monomial });
                     }
-                    changed = true;
                 }
             }
         }
-        if changed {
-            self.terms[reader.index()] = Some(merged);
-        }
-        changed
+        self.terms[reader.index()] = Some(merged);
+        true
     }
 
-    fn mergeable(&self, term: Term, uses: &FxHashMap<Atom, usize>) -> Option<Atom> {
+    fn mergeable(&self, term: Term, uses: &[u32]) -> Option<Atom> {
         let atoms = self.atoms(term.monomial);
-        let is_sum_alone = atoms.len() == 1 && term.coefficient.is_unit();
-        atoms.iter().copied().find(|atom| {
-            uses.get(atom) == Some(&1)
-                && self.terms(*atom).is_some_and(|terms| terms.len() == 1 || is_sum_alone)
-        })
+        for &atom in atoms {
+            if uses[atom.index()] != 1 {
+                continue;
+            }
+            let is_sum_alone = atoms.len() == 1 && term.coefficient.is_unit();
+            if self.terms(atom).is_some_and(|terms| terms.len() == 1 || is_sum_alone) {
+                return Some(atom);
+            }
+        }
+        None
     }
 }
