@@ -21,3 +21,7 @@ mod changelog {}
 #[cfg(doctest)]
 #[doc = include_str!("../../COMPARE.md")]
 mod compare {}
+
+#[cfg(doctest)]
+#[doc = include_str!("../../ACCURACY.md")]
+mod accuracy {}
