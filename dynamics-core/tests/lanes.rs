@@ -8,7 +8,7 @@ use dynamics_core::scalar::Scalar;
 fn arguments() -> impl Iterator<Item = f64> {
     let sizes = (-330..310).step_by(7).map(|k| 1.234_567 * power_of_ten(k));
     let special = [0.0, 1e4, 1_048_576.0, 562_949_953_421_312.0, f64::INFINITY, f64::NAN];
-    let turns = (0..2000).map(|k| f64::from(k) * 0.785_398_163_397_448_3);
+    let turns = (0..2000).map(|k| f64::from(k) * core::f64::consts::FRAC_PI_4);
     sizes.chain(special).chain(turns).flat_map(|x| [x, -x])
 }
 

@@ -114,6 +114,7 @@ fn with_room(run: impl FnOnce() + Send + 'static) {
 macro_rules! in_all_lanes {
     ($test:ident, $robot:expr, $frame:ident, $($uses:tt)*) => {
         #[test]
+        #[allow(clippy::useless_conversion, reason = "the robot of one float is made in the same words as that of lanes")]
         fn $test() {
             use $($uses)*;
             with_room(|| agree!(f64, f64x4, $robot, $frame));
