@@ -3,7 +3,8 @@
 //! States come in slices and results go to one, whatever they are made of; between them stands a closure that is
 //! called with as many states as there are lanes. Each result has the bits that a call with its state alone has.
 //!
-//! ```
+#![cfg_attr(feature = "derive", doc = "```")]
+#![cfg_attr(not(feature = "derive"), doc = "```ignore")]
 //! use dynamics_core::prelude::*;
 //! # #[derive(Dynamics)]
 //! # #[joint(slider: prismatic(x), world -> cart)]
@@ -38,7 +39,8 @@
 //! A robot with fields must have them in lanes: [`Native<f64>`](Native) says in how many, and a field may be of
 //! another value in each state.
 //!
-//! ```
+#![cfg_attr(feature = "derive", doc = "```")]
+#![cfg_attr(not(feature = "derive"), doc = "```ignore")]
 //! use dynamics_core::lanes::Native;
 //! use dynamics_core::prelude::*;
 //!
