@@ -20,7 +20,8 @@ pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
 pub use inverse::{forward_from_inverse, inverse_of};
 pub use manifold::{
-    ball_tangent_rate, difference_ball, difference_free, free_tangent_rate, integrate_ball, integrate_free,
+    ball_rate, ball_rate_transposed, ball_tangent_rate, difference_ball, difference_free, free_rate,
+    free_rate_transposed, free_tangent_rate, integrate_ball, integrate_free,
 };
 
 /// `(sin x, cos x)`.

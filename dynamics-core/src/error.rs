@@ -9,12 +9,12 @@ use crate::scalar::Scalar;
 /// A run-time failure, reported by the `try_…` methods and by [`Simulation`](crate::simulate::Simulation).
 ///
 /// The plain methods of [`Dynamics`](crate::Dynamics) return no errors: they follow IEEE 754 and never panic.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Error {
     /// An entry of an argument or of a result is infinite or NaN.
     NotFinite {
-        /// The vector it stands in, by the name the methods give it: `q`, `v`, `a`, `tau`.
+        /// The vector it stands in, by the name the methods give it: `q`, `v`, `a`, `tau`; `event` for the values of events.
         vector: &'static str,
         /// Its index there, counted from 0.
         index: usize,
@@ -28,6 +28,27 @@ pub enum Error {
     SingularMassMatrix,
     /// A step of time is zero, negative, infinite or NaN.
     StepNotPositive,
+    /// An implicit step was not solved; a smaller step may be.
+    NotConverged {
+        /// After how many iterations it was given up.
+        iterations: usize,
+    },
+    /// The step of time would have to be smaller than its bound, or than what rounding leaves of it, for the error to
+    /// meet the tolerances: at a jump of the forces, near a singular configuration, or because the tolerances ask for
+    /// more digits than the scalar has.
+    StepTooSmall {
+        /// When, in s.
+        time: f64,
+    },
+    /// So many steps have not reached the end.
+    TooManySteps {
+        /// Where they got to, in s.
+        time: f64,
+    },
+    /// The time to go to is before now, infinite or NaN.
+    TimeNotAhead,
+    /// A tolerance is negative, infinite or NaN, or both are zero.
+    ToleranceNotPositive,
     /// A field of the robot is infinite or NaN.
     ParameterNotFinite {
         /// The field's name.
@@ -117,6 +138,15 @@ impl fmt::Display for Error {
             }
             Self::SingularMassMatrix => f.write_str("the mass matrix is singular"),
             Self::StepNotPositive => f.write_str("the time step is not positive and finite"),
+            Self::NotConverged { iterations } => {
+                write!(f, "{iterations} iterations have not solved the step, which is too large")
+            }
+            Self::StepTooSmall { time } => {
+                write!(f, "no step is small enough for the tolerances at {time} s")
+            }
+            Self::TooManySteps { time } => write!(f, "the steps are used up at {time} s"),
+            Self::TimeNotAhead => f.write_str("the time to go to is not ahead"),
+            Self::ToleranceNotPositive => f.write_str("the tolerances are not positive and finite"),
             Self::ParameterNotFinite { field } => write!(f, "the parameter `{field}` is not finite"),
             Self::MassNotPositive { field } => write!(f, "the mass `{field}` is not positive"),
             Self::BatchLength { results, states } => {
@@ -148,6 +178,18 @@ mod tests {
         assert_eq!(Error::SingularMassMatrix.to_string(), "the mass matrix is singular");
         let message = "a batch has room for 5 results and 4 states";
         assert_eq!(Error::BatchLength { results: 5, states: 4 }.to_string(), message);
+        for (error, message) in [
+            (
+                Error::NotConverged { iterations: 50 },
+                "50 iterations have not solved the step, which is too large",
+            ),
+            (Error::StepTooSmall { time: 0.5 }, "no step is small enough for the tolerances at 0.5 s"),
+            (Error::TooManySteps { time: 2.0 }, "the steps are used up at 2 s"),
+            (Error::TimeNotAhead, "the time to go to is not ahead"),
+            (Error::ToleranceNotPositive, "the tolerances are not positive and finite"),
+        ] {
+            assert_eq!(error.to_string(), message);
+        }
         assert_eq!(Error::StepNotPositive.to_string(), "the time step is not positive and finite");
     }
 

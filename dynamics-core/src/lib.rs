@@ -80,16 +80,19 @@ pub use linearize::{Linearization, StateSpaceModel};
 pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use regressor::{BaseRegressor, Regressor};
 pub use scalar::Scalar;
-pub use simulate::{Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation};
+pub use simulate::{
+    Adaptive, Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation, Tolerances, Variational,
+};
 pub use state::{Configuration, State};
 
 /// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
 pub mod prelude {
     pub use crate::{
-        BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy,
-        EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator,
-        InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose, Regressor, Rk4,
-        Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel,
+        Adaptive, BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics,
+        DynamicsDerivatives, Energy, EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts,
+        Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose,
+        Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel, Tolerances,
+        Variational,
     };
     #[cfg(feature = "simd")]
     pub use crate::{

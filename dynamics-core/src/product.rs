@@ -103,8 +103,19 @@ pub(crate) fn transposed_product<T: Scalar, const R: usize, const C: usize>(
     b: &SVector<T, R>,
 ) -> SVector<T, C> {
     let [b] = &b.data.0;
-    let dot = |a: &[T; R]| a.iter().zip(b).fold(T::zero(), |sum, (a, b)| a.mul_add(*b, sum));
-    SMatrix::from_array_storage(ArrayStorage([a.data.0.each_ref().map(dot)]))
+    SMatrix::from_array_storage(ArrayStorage([a.data.0.each_ref().map(|a| sum_of_products(a, b))]))
+}
+
+/// `aᵀ·b`
+#[inline]
+pub(crate) fn dot<T: Scalar, const N: usize>(a: &SVector<T, N>, b: &SVector<T, N>) -> T {
+    let ([a], [b]) = (&a.data.0, &b.data.0);
+    sum_of_products(a, b)
+}
+
+#[inline(always)]
+fn sum_of_products<T: Scalar, const N: usize>(a: &[T; N], b: &[T; N]) -> T {
+    a.iter().zip(b).fold(T::zero(), |sum, (a, b)| a.mul_add(*b, sum))
 }
 
 #[cfg(test)]

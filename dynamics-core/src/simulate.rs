@@ -1,16 +1,41 @@
-//! Simulation in fixed steps: a robot, a state, a step of time, and an input.
+//! Simulation: a robot, a state, an input, and steps of time, fixed or adaptive.
 
+mod adaptive;
+mod clock;
+mod controller;
+mod dopri5;
 mod euler;
+mod event;
 mod integrator;
+mod locate;
+mod monitor;
+mod numbers;
 mod rk4;
 mod sample;
+mod segment;
+mod tolerances;
+#[cfg(feature = "std")]
+mod trajectory;
+mod variational;
 
+pub use adaptive::Adaptive;
 pub use euler::SemiImplicitEuler;
+pub use event::{
+    Arrival, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
+};
 pub use integrator::Integrator;
+pub use monitor::{EnergyMonitor, Momentum, MomentumMonitor};
 pub use rk4::Rk4;
 pub use sample::{Energy, Sample};
+pub use segment::Segment;
+pub use tolerances::Tolerances;
+#[cfg(feature = "std")]
+pub use trajectory::Trajectory;
+pub use variational::Variational;
 
 use nalgebra::SVector;
+
+use clock::Clock;
 
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -47,9 +72,7 @@ pub struct Simulation<'r, R, T, const NQ: usize, const NV: usize, I = Rk4, U = U
     integrator: I,
     input: U,
     step: T,
-    time: T,
-    /// What rounding took from `time` so far (W. Kahan's summation).
-    time_error: T,
+    clock: Clock<T>,
     state: State<T, NQ, NV>,
 }
 
@@ -71,7 +94,7 @@ where
         state.check()?;
         robot.check_configuration(&state.q)?;
         let input: Unforced<T, NQ, NV> = |_, _| SVector::zeros();
-        Ok(Self { robot, integrator: Rk4, input, step, time: T::zero(), time_error: T::zero(), state })
+        Ok(Self { robot, integrator: Rk4, input, step, clock: Clock::at(T::zero()), state })
     }
 }
 
@@ -79,8 +102,8 @@ impl<'r, R, T: Scalar, const NQ: usize, const NV: usize, I, U> Simulation<'r, R,
     /// The same simulation by another integrator.
     #[must_use]
     pub fn with_integrator<J: Integrator>(self, integrator: J) -> Simulation<'r, R, T, NQ, NV, J, U> {
-        let Self { robot, input, step, time, time_error, state, .. } = self;
-        Simulation { robot, integrator, input, step, time, time_error, state }
+        let Self { robot, input, step, clock, state, .. } = self;
+        Simulation { robot, integrator, input, step, clock, state }
     }
 
     /// The same simulation under the joint forces `τ = input(time, state)`, in N·m or N.
@@ -89,14 +112,14 @@ impl<'r, R, T: Scalar, const NQ: usize, const NV: usize, I, U> Simulation<'r, R,
     where
         W: FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
     {
-        let Self { robot, integrator, step, time, time_error, state, .. } = self;
-        Simulation { robot, integrator, input, step, time, time_error, state }
+        let Self { robot, integrator, step, clock, state, .. } = self;
+        Simulation { robot, integrator, input, step, clock, state }
     }
 
     /// The time since the start, in s.
     #[must_use]
     pub fn time(&self) -> T {
-        self.time
+        self.clock.time
     }
 
     /// The state now.
@@ -108,7 +131,7 @@ impl<'r, R, T: Scalar, const NQ: usize, const NV: usize, I, U> Simulation<'r, R,
     /// Time, state and robot now; the first sample, if taken before the first step.
     #[must_use]
     pub fn sample(&self) -> Sample<'r, R, T, NQ, NV> {
-        Sample { time: self.time, state: self.state, robot: self.robot }
+        Sample { time: self.clock.time, state: self.state, robot: self.robot }
     }
 }
 
@@ -123,28 +146,45 @@ where
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] if the new state is not finite; the simulation then stays where it was.
+    /// If the new state is not finite: [`Error::SingularMassMatrix`] or [`Error::NotFinite`] of `tau` or `a`, where the
+    /// state before the step already has it; else [`Error::NotFinite`] of the new state. Those of the integrator. The
+    /// simulation then stays where it was.
     pub fn step(&mut self) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
-        let next = self.integrator.step(self.robot, self.time, &self.state, self.step, &mut self.input);
-        next.check()?;
-        self.state = next;
-        let step = self.step - self.time_error;
-        let time = self.time + step;
-        self.time_error = (time - self.time) - step;
-        self.time = time;
+        let next = self
+            .integrator
+            .step(self.robot, self.clock.time, &self.state, self.step, &mut self.input)
+            .and_then(|next| next.check().map(|()| next));
+        self.state = next.map_err(|error| self.cause().unwrap_or(error))?;
+        self.clock = self.clock.after(self.step);
         Ok(self.sample())
+    }
+
+    /// What is wrong with the state that a step began with.
+    #[cold]
+    fn cause(&mut self) -> Option<Error> {
+        let State { q, v } = &self.state;
+        let tau = (self.input)(self.clock.time, &self.state);
+        self.robot.try_forward_dynamics(q, v, &tau).err()
     }
 
     /// The samples after each of the next `count` steps; ends early behind the first error.
     pub fn steps(&mut self, count: usize) -> impl Iterator<Item = Result<Sample<'r, R, T, NQ, NV>, Error>> {
-        let mut failed = false;
-        (0..count).map_while(move |_| {
-            if failed {
-                return None;
-            }
-            let sample = self.step();
-            failed = sample.is_err();
-            Some(sample)
+        let mut left = count;
+        until_error(move || {
+            left = left.checked_sub(1)?;
+            Some(self.step())
         })
     }
+}
+
+/// What `next` gives, up to its end or its first error.
+fn until_error<S>(
+    mut next: impl FnMut() -> Option<Result<S, Error>>,
+) -> impl Iterator<Item = Result<S, Error>> {
+    let mut failed = false;
+    core::iter::from_fn(move || {
+        let item = if failed { None } else { next() };
+        failed |= matches!(item, Some(Err(_)));
+        item
+    })
 }

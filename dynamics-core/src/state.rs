@@ -63,6 +63,32 @@ pub trait Configuration<T: Scalar, const NQ: usize, const NV: usize> {
         delta
     }
 
+    /// `δ̇`, NV: the rate of δ where `q ⊕ δ` moves with the velocity `v`, for every `q`.
+    ///
+    /// For one-dof joints `v`. For ball and free joints the inverse of the exponential's derivative, linear in `v`:
+    /// `v + ½ [δ, v] + …`, where `[·,·]` is the commutator of twists; of rotations below a whole turn.
+    ///
+    /// A method for vector spaces becomes one for manifolds where it integrates this in place of `q̇ = v`.
+    ///
+    /// # Source
+    ///
+    /// H. Munthe-Kaas, *High order Runge–Kutta methods on manifolds*, Applied Numerical Mathematics 29 (1999) 115–127;
+    /// F. Bullo, R. Murray, *Proportional derivative control on the Euclidean group*, Caltech 1995, for SE(3).
+    #[inline]
+    fn rate(&self, delta: &SVector<T, NV>, v: &SVector<T, NV>) -> SVector<T, NV> {
+        const { assert!(NQ == NV, "a rotation vector does not grow with the velocity: `rate` must be written") };
+        let _ = delta;
+        *v
+    }
+
+    /// The transposed of the map `v ↦ δ̇` of [`rate`](Self::rate), NV: of joint forces or momenta, the forces of δ.
+    #[inline]
+    fn rate_transposed(&self, delta: &SVector<T, NV>, p: &SVector<T, NV>) -> SVector<T, NV> {
+        const { assert!(NQ == NV, "a rotation vector has other forces: `rate_transposed` must be written") };
+        let _ = delta;
+        *p
+    }
+
     /// The configuration of zeros, NQ, where quaternions are `0, 0, 0, 1`.
     #[inline]
     fn neutral(&self) -> SVector<T, NQ> {

@@ -8,10 +8,10 @@ use std::f64::consts::PI;
 use common::dual::{Dual, moving, resting, tangent};
 use common::{random_numbers, random_vector};
 use dynamics_core::__private::{
-    ball_tangent_rate, columns, difference_ball, difference_free, free_tangent_rate, integrate_ball,
-    integrate_free, put_on_diagonal, vector,
+    ball_rate, ball_rate_transposed, ball_tangent_rate, columns, difference_ball, difference_free, free_rate,
+    free_rate_transposed, free_tangent_rate, integrate_ball, integrate_free, put_on_diagonal, vector,
 };
-use dynamics_core::nalgebra::{Matrix3, Matrix4, Quaternion, UnitQuaternion, Vector3, Vector4};
+use dynamics_core::nalgebra::{Matrix3, Matrix4, Matrix6, Quaternion, UnitQuaternion, Vector3, Vector4};
 use dynamics_core::prelude::*;
 
 /// Some roundings of numbers of the size 1.
@@ -339,4 +339,125 @@ fn blocks_stand_on_the_diagonal() {
         [0.0, -2.0, 1.0, 0.0],
     ]);
     assert_eq!(rate, expected);
+}
+
+// Rates.
+
+/// `δ̇` by dual numbers: `q ⊕ δ` moves with `v`, and what δ leads there is asked of the logarithm.
+fn rate_of_duals<const N: usize, const Q: usize>(
+    q: [Dual; Q],
+    [delta, v]: [[f64; N]; 2],
+    integrate: impl Fn([Dual; Q], [Dual; N]) -> [Dual; Q],
+    difference: impl Fn([Dual; Q], [Dual; Q]) -> [Dual; N],
+) -> [f64; N] {
+    let [reached] = resting(&SVector::from(delta)).data.0;
+    let [moving_on] = moving(&SVector::zeros(), &SVector::from(v)).data.0;
+    difference(q, integrate(integrate(q, reached), moving_on)).map(|x| x.tangent)
+}
+
+#[test]
+fn a_rate_is_the_derivative_of_the_logarithm() {
+    let mut random = random_numbers(11);
+    // Up to half a turn, where the logarithm takes the other way round.
+    for angle in [0.0, 1e-200, 1e-9, 1e-8, 1e-7, 1e-4, 0.1, 1.0, 2.0, 3.0] {
+        for _ in 0..20 {
+            let [i, j, k, w] = unit_quaternion(&mut random).map(Dual::of);
+            let [l, m, n] = rotation_vector(&mut random, angle);
+            let [a, b, c, x, y, z] = std::array::from_fn(|_| random());
+            let (v, twist) = ([x, y, z], std::array::from_fn(|_| random()));
+            let expected = rate_of_duals([i, j, k, w], [[l, m, n], v], integrate_ball, difference_ball);
+            // The logarithm of a dual number is worth nine digits where its angle is near zero or half a turn.
+            close(ball_rate([l, m, n], v), expected, 1e-9);
+            let free = [Dual::of(a), Dual::of(b), Dual::of(c), i, j, k, w];
+            let delta = [x, y, z, l, m, n];
+            let expected = rate_of_duals(free, [delta, twist], integrate_free, difference_free);
+            close(free_rate(delta, twist), expected, 1e-7);
+        }
+    }
+}
+
+/// `ad(V)` of a twist, 6×6.
+fn ad([a, b, c, l, m, n]: [f64; 6]) -> Matrix6<f64> {
+    let [linear, angular] = [Vector3::new(a, b, c), Vector3::new(l, m, n)].map(|x| x.cross_matrix());
+    let mut ad = Matrix6::zeros();
+    for (row, column, block) in [(0, 0, angular), (0, 3, linear), (3, 3, angular)] {
+        ad.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
+    }
+    ad
+}
+
+/// `Σ Bₖ/k!·(−ad δ)ᵏ`, the series of Bernoulli's numbers, up to angles where its forty terms are enough.
+#[test]
+fn a_rate_is_the_series_of_bernoulli() {
+    const BERNOULLI: [f64; 9] = [
+        1.0 / 6.0,
+        -1.0 / 30.0,
+        1.0 / 42.0,
+        -1.0 / 30.0,
+        5.0 / 66.0,
+        -691.0 / 2730.0,
+        7.0 / 6.0,
+        -3617.0 / 510.0,
+        43867.0 / 798.0,
+    ];
+    let mut random = random_numbers(12);
+    for angle in [0.0, 1e-160, 1e-9, 1e-8, 3e-8, 1e-6, 1e-3, 0.1, 0.5] {
+        for _ in 0..20 {
+            let [l, m, n] = rotation_vector(&mut random, angle);
+            let [a, b, c] = std::array::from_fn(|_| random());
+            let (delta, twist) = ([a, b, c, l, m, n], std::array::from_fn(|_| random()));
+            let (ad, mut power, mut factorial) = (ad(delta), Matrix6::identity(), 1.0);
+            let mut map = Matrix6::identity() + ad * 0.5;
+            for (k, bernoulli) in BERNOULLI.iter().enumerate() {
+                let order = 2.0 * k as f64 + 2.0;
+                (power, factorial) = (power * ad * ad, factorial * order * (order - 1.0));
+                map += power * (bernoulli / factorial);
+            }
+            let [expected] = (map * SVector::from(twist)).data.0;
+            close(free_rate(delta, twist), expected, 2.0 * ROUNDING);
+            let [transposed] = (map.transpose() * SVector::from(twist)).data.0;
+            close(free_rate_transposed(delta, twist), transposed, 2.0 * ROUNDING);
+        }
+    }
+}
+
+/// `D(δ)·exp'(δ) = 1`: what δ does to the motion, and what the motion does to δ, up to where the chart ends.
+#[test]
+fn a_rate_undoes_the_derivative_of_the_exponential() {
+    let mut random = random_numbers(13);
+    for angle in [1e-9, 1e-8, 1e-7, 1e-3, 1.0, 2.0, 3.0, PI, 4.0, 4.7] {
+        for _ in 0..20 {
+            let [l, m, n] = rotation_vector(&mut random, angle);
+            let [a, b, c] = std::array::from_fn(|_| random());
+            let (delta, grows) = (SVector::from([a, b, c, l, m, n]), random_vector::<6>(&mut random, 1.0));
+            // The velocity at which q ⊕ δ moves as δ grows: the difference from the place that stands.
+            let ([at], [growing]) = (resting(&delta).data.0, moving(&delta, &grows).data.0);
+            let origin = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0].map(Dual::of);
+            let (stands, moves) = (integrate_free(origin, at), integrate_free(origin, growing));
+            let velocity = difference_free(stands, moves).map(|x| x.tangent);
+            let [delta] = delta.data.0;
+            let [grows] = grows.data.0;
+            close(free_rate(delta, velocity), grows, 1e-9);
+        }
+    }
+}
+
+#[test]
+fn a_rate_and_its_transposed_do_the_same_work() {
+    let mut random = random_numbers(14);
+    for angle in ANGLES.into_iter().filter(|angle| *angle < 5.0) {
+        let [l, m, n] = rotation_vector(&mut random, angle);
+        let [a, b, c] = std::array::from_fn(|_| random());
+        let (v, p) = (random_vector::<6>(&mut random, 1.0), random_vector::<6>(&mut random, 1.0));
+        let ([twist], [wrench]) = (v.data.0, p.data.0);
+        let delta = [a, b, c, l, m, n];
+        let by_rate = SVector::from(free_rate(delta, twist)).dot(&p);
+        let by_force = SVector::from(free_rate_transposed(delta, wrench)).dot(&v);
+        assert!((by_rate - by_force).abs() < 10.0 * ROUNDING, "{by_rate} and {by_force} at {angle}");
+        let ([.., x, y, z], [.., i, j, k]) = (twist, wrench);
+        let by_rate = SVector::from(ball_rate([l, m, n], [x, y, z])).dot(&SVector::from([i, j, k]));
+        let by_force =
+            SVector::from(ball_rate_transposed([l, m, n], [i, j, k])).dot(&SVector::from([x, y, z]));
+        assert!((by_rate - by_force).abs() < 10.0 * ROUNDING, "{by_rate} and {by_force} at {angle}");
+    }
 }

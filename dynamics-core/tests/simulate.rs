@@ -41,6 +41,12 @@ fn semi_implicit_euler_is_of_order_one() {
 }
 
 #[test]
+fn the_variational_method_is_of_order_two() {
+    let order = observed_order(Variational, 200);
+    assert!((order - 2.0).abs() < 0.1, "observed order {order}");
+}
+
+#[test]
 fn runge_kutta_keeps_its_order_on_quaternions() {
     let run = |steps: usize| {
         let start = State::new(SVector::from([0.0, 0.0, 0.0, 1.0]), SVector::from([0.5, 4.0, 0.7]));

@@ -3,9 +3,8 @@
 
 mod common;
 
-use std::f64::consts::PI;
-
 use common::Spinner;
+use common::elliptic::quarter_period;
 use common::free_box::FreeBox;
 use dynamics_core::nalgebra::{Vector3, Vector6};
 use dynamics_core::prelude::*;
@@ -114,15 +113,6 @@ fn a_tennis_racket_turns_over_in_the_time_of_jacobi() {
     assert!((back - principal).norm() < 1e-6, "as it began after a period: {back}");
 }
 
-/// `K(m)`, the complete elliptic integral, by the arithmetic and geometric mean.
-fn quarter_period(m: f64) -> f64 {
-    let (mut a, mut g) = (1.0, (1.0 - m).sqrt());
-    for _ in 0..8 {
-        (a, g) = (0.5 * (a + g), (a * g).sqrt());
-    }
-    0.5 * PI / a
-}
-
 /// log₂ of the ratio of the errors at h and h/2, against a solution far finer.
 fn observed_order<I: Integrator + Copy>(integrator: I, steps: usize) -> f64 {
     let exact = end(Rk4, 4_000);
@@ -137,6 +127,13 @@ fn observed_order<I: Integrator + Copy>(integrator: I, steps: usize) -> f64 {
 fn runge_kutta_is_of_order_four_on_free_joints() {
     let order = observed_order(Rk4, 100);
     assert!((order - 4.0).abs() < 0.2, "observed order {order}");
+}
+
+/// Under forces of time and speed, and weight, with the frame away from the centre of mass.
+#[test]
+fn the_variational_method_is_of_order_two_on_free_joints() {
+    let order = observed_order(Variational, 200);
+    assert!((order - 2.0).abs() < 0.1, "observed order {order}");
 }
 
 #[test]

@@ -1,8 +1,9 @@
 //! Ball and free joints as manifolds: `q ⊕ δ`, its inverse, and the rate of `δ`.
 //!
 //! Quaternions are i, j, k, w; twists are of the body in the body, linear first. There is no branch here and no
-//! comparison, so that every scalar can do it, and no series, so that it holds for every angle: quotients that
-//! would be 0/0 at the angle zero are taken at a root of θ² + `GUARD`, and a logarithm divides by nothing small.
+//! comparison, so that every scalar can do it, and no series about zero, so that it holds for every angle: quotients
+//! that would be 0/0 at the angle zero are taken at a root of θ² + `GUARD`, or by partial fractions, and a logarithm
+//! divides by nothing small.
 //!
 //! R. Murray, Z. Li, S. Sastry, *A Mathematical Introduction to Robotic Manipulation*, CRC Press 1994, §2.3;
 //! J. Solà, J. Deray, D. Atchuthan, *A micro Lie theory for state estimation in robotics*, arXiv:1812.01537, 2018.
@@ -94,6 +95,96 @@ pub fn free_tangent_rate<T: Scalar>(twist: [T; 6]) -> [[T; 6]; 6] {
     let [column_3, column_4, column_5] =
         [(a, d), (b, e), (c, f)].map(|([x, y, z], [u, v, w])| [x, y, z, u, v, w]);
     [column_0, column_1, column_2, column_3, column_4, column_5]
+}
+
+/// `δ̇` where `q ⊕ δ` turns with the angular velocity `ω` of the body: `ω + ½ δ×ω + g·δ×(δ×ω)`, rad/s.
+///
+/// For |δ| below 2π, where the chart ends; to the last bits up to ¾ of that.
+#[inline]
+#[must_use]
+pub fn ball_rate<T: Scalar>(delta: [T; 3], angular: [T; 3]) -> [T; 3] {
+    Bend::by(delta).rate(delta, angular)
+}
+
+/// `δ̇` where `q ⊕ δ` moves with the twist `V` of the body, m/s and rad/s, for rotations as [`ball_rate`] takes them.
+///
+/// The linear half is the angular one with its derivative along the linear half of δ: se(3) is the tangent of so(3).
+#[inline]
+#[must_use]
+pub fn free_rate<T: Scalar>(delta: [T; 6], twist: [T; 6]) -> [T; 6] {
+    let ([along, turn], [linear, angular]) = (halves(delta), halves(twist));
+    let bend @ Bend { g, slope } = Bend::by(turn);
+    let inner = cross(turn, angular);
+    let across = scaled(cross(along, angular), T::of(0.5));
+    let inwards = scaled(sum(cross(along, inner), cross(turn, cross(along, angular))), g);
+    let steeper = scaled(cross(turn, inner), slope * dot(turn, along));
+    let [a, b, c] = sum(sum(bend.rate(turn, linear), across), sum(inwards, steeper));
+    let [d, e, f] = bend.rate(turn, angular);
+    [a, b, c, d, e, f]
+}
+
+/// The transposed of the map `ω ↦ δ̇` of [`ball_rate`], of a torque.
+#[inline]
+#[must_use]
+pub fn ball_rate_transposed<T: Scalar>(delta: [T; 3], torque: [T; 3]) -> [T; 3] {
+    ball_rate(delta.map(|x| -x), torque)
+}
+
+/// The transposed of the map `V ↦ δ̇` of [`free_rate`], of a wrench.
+///
+/// The map is `[A B; 0 A]`, and with −δ in place of δ both blocks are their own transposes; so the halves change places.
+#[inline]
+#[must_use]
+pub fn free_rate_transposed<T: Scalar>(delta: [T; 6], [a, b, c, d, e, f]: [T; 6]) -> [T; 6] {
+    let [a, b, c, d, e, f] = free_rate(delta.map(|x| -x), [d, e, f, a, b, c]);
+    [d, e, f, a, b, c]
+}
+
+/// How a chart of rotations bends at δ: `g(θ²) = (1 − (θ/2)·cot(θ/2))/θ²`, and twice its derivative by θ².
+struct Bend<T> {
+    g: T,
+    slope: T,
+}
+
+impl<T: Scalar> Bend<T> {
+    /// By the cotangent's poles, `g = Σ 2/((2πk)² − θ²)`: positive terms, which cancel nothing at any angle. Three of
+    /// them, and for the others the series in `y = θ²/(2π)²`, whose coefficients are `Σ k^(−2j−2)` from k = 4 on.
+    #[inline(always)]
+    fn by(delta: [T; 3]) -> Self {
+        const TAIL: [f64; 10] = [
+            0.283_822_955_737_115_33,
+            7.477_554_698_792_512e-3,
+            3.463_198_719_662_865e-4,
+            1.869_040_766_846_68e-5,
+            1.077_540_009_655_050_5e-6,
+            6.425_188_488_937_789e-8,
+            3.903_650_576_060_287e-9,
+            2.397_730_264_529_58e-10,
+            1.482_458_312_665_928e-11,
+            9.202_674_668_690_207e-13,
+        ];
+        /// `1/(2π)²`
+        const PER_TURN: f64 = 0.025_330_295_910_584_444;
+        let one = T::one();
+        let y = dot(delta, delta) * T::of(PER_TURN);
+        let (mut sum, mut slope) = (T::zero(), T::zero());
+        for coefficient in TAIL.iter().rev() {
+            slope = slope.mul_add(y, sum);
+            sum = sum.mul_add(y, T::of(*coefficient));
+        }
+        for pole in [9.0, 4.0, 1.0] {
+            let term = one / (T::of(pole) - y);
+            sum += term;
+            slope = term.mul_add(term, slope);
+        }
+        Self { g: sum * T::of(2.0 * PER_TURN), slope: slope * T::of(4.0 * PER_TURN * PER_TURN) }
+    }
+
+    #[inline(always)]
+    fn rate(&self, delta: [T; 3], angular: [T; 3]) -> [T; 3] {
+        let across = cross(delta, angular);
+        sum(angular, sum(scaled(across, T::of(0.5)), scaled(cross(delta, across), self.g)))
+    }
 }
 
 /// A rotation by δ: its axis and angle, and the sine and cosine of half the angle.

@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::Integrator;
 use crate::dynamics::Dynamics;
+use crate::error::Error;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
 
@@ -25,13 +26,13 @@ impl Integrator for SemiImplicitEuler {
         state: &State<T, NQ, NV>,
         step: T,
         mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-    ) -> State<T, NQ, NV>
+    ) -> Result<State<T, NQ, NV>, Error>
     where
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
         T: Scalar,
     {
         let tau = input(time, state);
         let v = state.v + robot.forward_dynamics(&state.q, &state.v, &tau) * step;
-        State { q: robot.integrate(&state.q, &(v * step)), v }
+        Ok(State { q: robot.integrate(&state.q, &(v * step)), v })
     }
 }

@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use crate::dynamics::Dynamics;
+use crate::error::Error;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
 
@@ -14,6 +15,12 @@ pub trait Integrator {
     const ORDER: u32;
 
     /// The state `step` seconds after `time`, under the joint forces `τ = input(time, state)`.
+    ///
+    /// A state that is not finite need not be noticed here; [`Simulation`](super::Simulation) does that.
+    ///
+    /// # Errors
+    ///
+    /// Of methods that solve equations, [`Error::NotConverged`]. Explicit methods have none.
     fn step<R, T, const NQ: usize, const NV: usize>(
         &self,
         robot: &R,
@@ -21,7 +28,7 @@ pub trait Integrator {
         state: &State<T, NQ, NV>,
         step: T,
         input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-    ) -> State<T, NQ, NV>
+    ) -> Result<State<T, NQ, NV>, Error>
     where
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
         T: Scalar;

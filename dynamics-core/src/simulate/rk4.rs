@@ -4,6 +4,7 @@ use nalgebra::SVector;
 
 use super::Integrator;
 use crate::dynamics::Dynamics;
+use crate::error::Error;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
 
@@ -30,7 +31,7 @@ impl Integrator for Rk4 {
         state: &State<T, NQ, NV>,
         step: T,
         mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-    ) -> State<T, NQ, NV>
+    ) -> Result<State<T, NQ, NV>, Error>
     where
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
         T: Scalar,
@@ -57,9 +58,9 @@ impl Integrator for Rk4 {
         let middle = (v2 + v3) * T::of(2.0);
         let first = (v1 * T::of(3.0) + middle - v4) * twelfth;
         let second = (v4 * T::of(3.0) + middle - v1) * twelfth;
-        State {
+        Ok(State {
             q: robot.integrate(&robot.integrate(&q, &first), &second),
             v: v1 + (a1 + (a2 + a3) * T::of(2.0) + a4) * (step * T::of(1.0 / 6.0)),
-        }
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! A rigid body that moves freely, its frame away from its centre of mass and its axes.
 
-use dynamics_core::__private::{difference_free, integrate_free, vector};
+use dynamics_core::__private::{difference_free, free_rate, free_rate_transposed, integrate_free, vector};
 use dynamics_core::nalgebra::{
     Matrix3, Matrix6, Quaternion, Rotation3, UnitQuaternion, Vector3, Vector4, Vector6,
 };
@@ -153,6 +153,14 @@ impl Configuration<f64, 7, 6> for FreeBox {
         let ([q0], [q1]) = (q0.data.0, q1.data.0);
         vector(difference_free(q0, q1))
     }
+    fn rate(&self, delta: &SVector<f64, 6>, v: &SVector<f64, 6>) -> SVector<f64, 6> {
+        let ([delta], [v]) = (delta.data.0, v.data.0);
+        vector(free_rate(delta, v))
+    }
+    fn rate_transposed(&self, delta: &SVector<f64, 6>, p: &SVector<f64, 6>) -> SVector<f64, 6> {
+        let ([delta], [p]) = (delta.data.0, p.data.0);
+        vector(free_rate_transposed(delta, p))
+    }
     fn neutral(&self) -> SVector<f64, 7> {
         vector([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0])
     }
@@ -192,5 +200,19 @@ impl Frame<FreeBox, f64, 7, 6> for Corner {
         a: &SVector<f64, 6>,
     ) -> SVector<f64, 6> {
         Self::jacobian(robot, q) * a
+    }
+}
+
+impl CentroidalDynamics<f64, 7, 6> for FreeBox {
+    fn total_mass(&self) -> f64 {
+        self.mass
+    }
+    fn center_of_mass(&self, q: &SVector<f64, 7>) -> SVector<f64, 3> {
+        FreeBox::center_of_mass(self, q)
+    }
+    fn centroidal_momentum_matrix(&self, q: &SVector<f64, 7>) -> SMatrix<f64, 6, 6> {
+        let rotation = *Self::rotation(q).matrix();
+        let linear = -rotation * self.com.cross_matrix() * self.mass;
+        blocks(rotation * self.mass, linear, Matrix3::zeros(), rotation * self.inertia)
     }
 }

@@ -2,9 +2,12 @@
 #![allow(dead_code, unreachable_pub, missing_docs, reason = "every test file uses its share of these robots")]
 
 pub mod dual;
+pub mod elliptic;
 pub mod free_box;
 
-use dynamics_core::__private::{ball_tangent_rate, columns, difference_ball, integrate_ball, vector};
+use dynamics_core::__private::{
+    ball_rate, ball_rate_transposed, ball_tangent_rate, columns, difference_ball, integrate_ball, vector,
+};
 use dynamics_core::prelude::*;
 
 pub const G: f64 = 9.81;
@@ -362,6 +365,14 @@ impl Configuration<f64, 4, 3> for Spinner {
     fn difference(&self, q0: &SVector<f64, 4>, q1: &SVector<f64, 4>) -> SVector<f64, 3> {
         let ([q0], [q1]) = (q0.data.0, q1.data.0);
         vector(difference_ball(q0, q1))
+    }
+    fn rate(&self, delta: &SVector<f64, 3>, v: &SVector<f64, 3>) -> SVector<f64, 3> {
+        let ([delta], [v]) = (delta.data.0, v.data.0);
+        vector(ball_rate(delta, v))
+    }
+    fn rate_transposed(&self, delta: &SVector<f64, 3>, p: &SVector<f64, 3>) -> SVector<f64, 3> {
+        let ([delta], [p]) = (delta.data.0, p.data.0);
+        vector(ball_rate_transposed(delta, p))
     }
     fn neutral(&self) -> SVector<f64, 4> {
         vector([0.0, 0.0, 0.0, 1.0])

@@ -57,6 +57,8 @@ impl Emitter<'_, '_> {
             text.push_str(&self.integrate());
             if !self.is_flat() {
                 text.push_str(&self.difference());
+                text.push_str(&self.rate("rate", "v"));
+                text.push_str(&self.rate("rate_transposed", "p"));
                 text.push_str(&self.neutral());
             }
             text.push_str("    }\n\n");
@@ -122,6 +124,33 @@ impl Emitter<'_, '_> {
             results.push(d.trim_matches(['[', ']']).to_owned());
         }
         let _ = writeln!(text, "            vector([{}])\n        }}", results.join(", "));
+        text
+    }
+
+    /// `rate`, of velocities, or `rate_transposed`, of forces.
+    fn rate(&self, method: &str, argument: &str) -> String {
+        let (scalar, n) = (&self.scalar, self.sizes.inputs.dof);
+        let mut text = format!(
+            "        #[inline]\n        fn {method}(&self, delta: &SVector<{scalar}, {n}>, \
+             {argument}: &SVector<{scalar}, {n}>) -> SVector<{scalar}, {n}> {{\n"
+        );
+        for (prefix, vector) in [("d", "delta"), (argument, argument)] {
+            let _ = writeln!(text, "            let [{}] = {vector}.data.0;", in_brackets(prefix, n));
+        }
+        for joint in self.own_joints() {
+            let function = match joint.motion {
+                Motion::Ball => format!("ball_{method}"),
+                Motion::Free => format!("free_{method}"),
+                Motion::Revolute | Motion::Prismatic => continue,
+            };
+            let (d, x) = (joint.speeds("d"), joint.speeds(argument));
+            let _ = writeln!(text, "            let {x} = {function}({d}, {x});");
+        }
+        let _ = writeln!(
+            text,
+            "            vector([{}])\n        }}",
+            list(argument, 0, n).trim_matches(['[', ']'])
+        );
         text
     }
 

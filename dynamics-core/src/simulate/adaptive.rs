@@ -1,0 +1,407 @@
+//! Simulation in steps of their own size, within tolerances.
+
+use nalgebra::SVector;
+
+use super::clock::Clock;
+use super::controller::{Controller, fifth_root};
+use super::dopri5::{Attempt, Start, attempt};
+use super::event::{Arrival, Event};
+use super::locate::{self, Moment};
+use super::numbers::{larger, magnitude, rounding, smaller};
+use super::tolerances::Part;
+use super::{Sample, Segment, Tolerances, Unforced, until_error};
+use crate::dynamics::Dynamics;
+use crate::error::Error;
+use crate::scalar::Scalar;
+use crate::state::{Configuration, State};
+
+/// A robot moving in time, by the method of Dormand and Prince: order 5, with steps whose errors keep to
+/// [`Tolerances`], states between them, and [events](Self::advance_until). No heap, no panic; forwards only.
+///
+/// The method works in the chart `q₀ ⊕ δ` of each step (H. Munthe-Kaas), so that quaternions are of unit length, between
+/// the steps too. The input is a closure of time (s) and state that returns the joint forces `τ`; it is asked within
+/// the steps, and never beyond the time to go to. Where it jumps at known times, go to these.
+///
+/// Energy is kept as well as the tolerances ask for, and no better; [`Variational`](super::Variational) keeps it for
+/// ever.
+///
+/// # Example
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// # fn swing<R>(robot: &R, q0: SVector<f64, 2>) -> Result<(), Error>
+/// # where R: Dynamics<f64, 2, 2> + Configuration<f64, 2, 2> {
+/// let mut simulation = Adaptive::new(robot, State::rest(q0), Tolerances::of(1e-9))?
+///     .with_input(|_time, state| -0.1 * state.v);
+/// for sample in simulation.every(0.01, 2.0) { // from the steps' own polynomials
+///     let Sample { time, state, .. } = sample?;
+///     # let _ = (time, state);
+/// }
+/// let end = simulation.advance_to(10.0)?;
+/// # assert_eq!(end.time, 10.0);
+/// # Ok(()) }
+/// ```
+///
+/// # Cost
+///
+/// Six `forward_dynamics` for each step that is accepted or not, and one at the start.
+///
+/// # Source
+///
+/// J. Dormand, P. Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6 (1980) 19–26.
+#[derive(Clone, Debug)]
+pub struct Adaptive<'r, R, T, const NQ: usize, const NV: usize, U = Unforced<T, NQ, NV>> {
+    robot: &'r R,
+    input: U,
+    tolerances: Tolerances<T>,
+    steps: Steps<T>,
+    controller: Controller<T>,
+    front: Front<T, NQ, NV>,
+    /// Where the simulation is: at the front, or on the step that leads to it.
+    time: T,
+    state: State<T, NQ, NV>,
+}
+
+/// The bounds of steps.
+#[derive(Clone, Copy, Debug)]
+struct Steps<T> {
+    least: T,
+    greatest: Option<T>,
+    most: usize,
+    /// The next one, if there was one before.
+    next: Option<T>,
+}
+
+/// How far the steps have got.
+#[derive(Clone, Copy, Debug)]
+struct Front<T, const NQ: usize, const NV: usize> {
+    clock: Clock<T>,
+    state: State<T, NQ, NV>,
+    acceleration: Option<SVector<T, NV>>,
+    /// The step that led there.
+    segment: Option<Segment<T, NQ, NV>>,
+}
+
+impl<T: Scalar, const NQ: usize, const NV: usize> Front<T, NQ, NV> {
+    fn at(time: T, state: State<T, NQ, NV>) -> Self {
+        Self { clock: Clock::at(time), state, acceleration: None, segment: None }
+    }
+}
+
+impl<'r, R, T, const NQ: usize, const NV: usize> Adaptive<'r, R, T, NQ, NV>
+where
+    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
+    T: Scalar + PartialOrd + Into<f64>,
+{
+    /// A simulation from `state` at time 0, without joint forces. The first step finds its own size.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::ToleranceNotPositive`]; [`Error::NotFinite`] and [`Error::NotUnitQuaternion`] for the state.
+    pub fn new(robot: &'r R, state: State<T, NQ, NV>, tolerances: Tolerances<T>) -> Result<Self, Error> {
+        tolerances.check()?;
+        state.check()?;
+        robot.check_configuration(&state.q)?;
+        let input: Unforced<T, NQ, NV> = |_, _| SVector::zeros();
+        let steps = Steps { least: T::zero(), greatest: None, most: 1_000_000, next: None };
+        let (time, controller) = (T::zero(), Controller::new());
+        Ok(Self { robot, input, tolerances, steps, controller, front: Front::at(time, state), time, state })
+    }
+}
+
+impl<'r, R, T, const NQ: usize, const NV: usize, U> Adaptive<'r, R, T, NQ, NV, U>
+where
+    T: Scalar + PartialOrd,
+{
+    /// The same simulation under the joint forces `τ = input(time, state)`, in N·m or N.
+    #[must_use]
+    pub fn with_input<W>(self, input: W) -> Adaptive<'r, R, T, NQ, NV, W>
+    where
+        W: FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
+    {
+        let Self { robot, tolerances, steps, controller, time, state, .. } = self;
+        let front = Front::at(time, state);
+        Adaptive { robot, input, tolerances, steps, controller, front, time, state }
+    }
+
+    /// The same simulation in steps from `least` to `greatest`, in s; the last one before a given time may be shorter.
+    ///
+    /// Without it no step is too large, and one too small that time would not grow by.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepNotPositive`] if one is not positive and finite, or `least` is above `greatest`.
+    pub fn with_steps(mut self, least: T, greatest: T) -> Result<Self, Error> {
+        let positive = least > T::zero() && greatest >= least && greatest.is_finite();
+        if !positive {
+            return Err(Error::StepNotPositive);
+        }
+        self.steps = Steps { least, greatest: Some(greatest), ..self.steps };
+        Ok(self)
+    }
+
+    /// The same simulation with at most so many steps in each call, tried ones too; a million without it.
+    #[must_use]
+    pub fn with_most_steps(mut self, most: usize) -> Self {
+        self.steps.most = most;
+        self
+    }
+
+    /// The time since the start, in s.
+    #[must_use]
+    pub fn time(&self) -> T {
+        self.time
+    }
+
+    /// The state now.
+    #[must_use]
+    pub fn state(&self) -> &State<T, NQ, NV> {
+        &self.state
+    }
+
+    /// Time, state and robot now; the first sample, if taken before the first step.
+    #[must_use]
+    pub fn sample(&self) -> Sample<'r, R, T, NQ, NV> {
+        Sample { time: self.time, state: self.state, robot: self.robot }
+    }
+
+    /// The last step, in which or at whose end the simulation is; none before the first, and after a change of state.
+    #[must_use]
+    pub fn segment(&self) -> Option<&Segment<T, NQ, NV>> {
+        self.front.segment.as_ref()
+    }
+}
+
+impl<'r, R, T, const NQ: usize, const NV: usize, U> Adaptive<'r, R, T, NQ, NV, U>
+where
+    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
+    T: Scalar + PartialOrd + Into<f64>,
+    U: FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
+{
+    /// Goes on from another state now: after an impact, say.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] and [`Error::NotUnitQuaternion`]; the simulation then stays where it was.
+    pub fn set_state(&mut self, state: State<T, NQ, NV>) -> Result<(), Error> {
+        state.check()?;
+        self.robot.check_configuration(&state.q)?;
+        self.state = state;
+        self.front = Front::at(self.time, state);
+        Ok(())
+    }
+
+    /// Goes to `time`, in s, and returns the state there; where it is already is no error.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::TimeNotAhead`] if that is before now or not finite. [`Error::NotFinite`] of `tau`, `a` or a state, and
+    /// [`Error::SingularMassMatrix`]. [`Error::StepTooSmall`] and [`Error::TooManySteps`]. The simulation then is at the
+    /// end of the last good step.
+    pub fn advance_to(&mut self, time: T) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
+        let none: [&dyn Event<R, T, NQ, NV>; 0] = [];
+        self.advance_until(time, &none).map(|arrival| arrival.sample)
+    }
+
+    /// Goes to the next of the events, or to `time`, in s, if there is none until then.
+    ///
+    /// Several that happen together are returned together; one that was returned is not found again. After any, the
+    /// simulation can go on as it was, or from [another state](Self::set_state). An event is found by the sign of its
+    /// function at eight moments of each step; the time is exact to rounding, on the step's polynomial.
+    ///
+    /// # Errors
+    ///
+    /// As [`advance_to`](Self::advance_to); [`Error::NotFinite`] of `event` if a function is no number.
+    pub fn advance_until<V, const E: usize>(
+        &mut self,
+        time: T,
+        events: &[V; E],
+    ) -> Result<Arrival<'r, R, T, NQ, NV, E>, Error>
+    where
+        V: Event<R, T, NQ, NV>,
+    {
+        let mut left = self.check_ahead(time)?;
+        while self.time < time {
+            if self.time == self.front.clock.time {
+                self.take_step(time, &mut left)?;
+            }
+            let end = smaller(self.front.clock.time, time);
+            if let Some(segment) = &self.front.segment {
+                let from = Moment { time: self.time, state: self.state };
+                if let Some((moment, events)) = locate::first(self.robot, segment, from, end, events)? {
+                    (self.time, self.state) = (moment.time, moment.state);
+                    return Ok(Arrival { sample: self.sample(), events });
+                }
+            }
+            self.go_to(end);
+        }
+        Ok(Arrival { sample: self.sample(), events: [false; E] })
+    }
+
+    /// How many steps there are for going to `time`, if that is not before now.
+    pub(super) fn check_ahead(&self, time: T) -> Result<usize, Error> {
+        let ahead = time >= self.time && time.is_finite();
+        if ahead { Ok(self.steps.most) } else { Err(Error::TimeNotAhead) }
+    }
+
+    /// The joint forces now.
+    #[cfg(feature = "std")]
+    pub(super) fn tau(&mut self) -> SVector<T, NV> {
+        (self.input)(self.time, &self.state)
+    }
+
+    /// The samples at the ends of the method's own steps, up to `until`, in s; ends early behind the first error.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`advance_to`](Self::advance_to).
+    pub fn steps(&mut self, until: T) -> impl Iterator<Item = Result<Sample<'r, R, T, NQ, NV>, Error>> {
+        let ahead = self.check_ahead(until);
+        let mut left = ahead.unwrap_or(0);
+        until_error(move || match ahead {
+            Ok(_) if self.time >= until => None,
+            Ok(_) => Some(self.step(until, &mut left).map(|()| self.sample())),
+            Err(error) => Some(Err(error)),
+        })
+    }
+
+    /// The samples at every `interval` from now, up to `until`, in s; ends early behind the first error.
+    ///
+    /// The steps do not depend on it: between them there are their polynomials.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::StepNotPositive`] for the interval; those of [`advance_to`](Self::advance_to).
+    pub fn every(
+        &mut self,
+        interval: T,
+        until: T,
+    ) -> impl Iterator<Item = Result<Sample<'r, R, T, NQ, NV>, Error>> {
+        let (start, mut count) = (self.time, 0_u32);
+        let positive = interval > T::zero() && interval.is_finite();
+        let sound = if positive { self.check_ahead(until).map(|_| ()) } else { Err(Error::StepNotPositive) };
+        // The last one may be late by rounding.
+        let latest = interval.mul_add(T::of(1e-3), until);
+        until_error(move || {
+            count = count.saturating_add(1);
+            let time = interval.mul_add(T::of(f64::from(count)), start);
+            match sound {
+                Ok(()) if time > latest => None,
+                Ok(()) => Some(self.sample_on_the_way(smaller(time, until), until)),
+                Err(error) => Some(Err(error)),
+            }
+        })
+    }
+
+    /// Goes to `time` by steps that may lead beyond it, up to `until`.
+    fn sample_on_the_way(&mut self, time: T, until: T) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
+        let mut left = self.steps.most;
+        while self.front.clock.time < time {
+            self.take_step(until, &mut left)?;
+        }
+        self.go_to(time);
+        Ok(self.sample())
+    }
+
+    /// Goes to the end of the step, or of the next one if it is there, or to `until` if that is on it.
+    pub(super) fn step(&mut self, until: T, left: &mut usize) -> Result<(), Error> {
+        if self.time == self.front.clock.time {
+            self.take_step(until, left)?;
+        }
+        self.go_to(smaller(self.front.clock.time, until));
+        Ok(())
+    }
+
+    /// Goes to a time on the last step.
+    fn go_to(&mut self, time: T) {
+        self.state = match &self.front.segment {
+            Some(segment) if time < self.front.clock.time => segment.at(self.robot, time),
+            _ => self.front.state,
+        };
+        self.time = time;
+    }
+
+    /// Moves the front on by one step, and not beyond `until`.
+    fn take_step(&mut self, until: T, left: &mut usize) -> Result<(), Error> {
+        let Front { clock, state, .. } = self.front;
+        let acceleration = self.acceleration()?;
+        let mut next = match self.steps.next {
+            Some(step) => step,
+            None => self.first_step(acceleration, until - clock.time),
+        };
+        let mut broken = None;
+        loop {
+            let step = self.bounded(next, until - clock.time);
+            let Some(step) = step else {
+                return Err(broken.unwrap_or(Error::StepTooSmall { time: clock.time.into() }));
+            };
+            *left = left.checked_sub(1).ok_or(Error::TooManySteps { time: clock.time.into() })?;
+            let ends = step == until - clock.time;
+            let after = if ends { Clock::at(until) } else { clock.after(step) };
+            let start = Start { state: &state, acceleration, times: [clock.time, after.time], step };
+            let Attempt { state: reached, acceleration, segment, error } =
+                attempt(self.robot, &start, &self.tolerances, &mut self.input);
+            let sound = Error::unless_finite("a", &acceleration).and_then(|()| reached.check());
+            let held = step <= self.steps.least;
+            broken = sound.err();
+            if broken.is_none() && error <= T::one() {
+                let suggested = step * self.controller.accepted(error);
+                // A step that was cut short by its end says little of the next one.
+                self.steps.next = Some(if ends { larger(suggested, next) } else { suggested });
+                let acceleration = Some(acceleration);
+                self.front = Front { clock: after, state: reached, acceleration, segment: Some(segment) };
+                return Ok(());
+            }
+            if held {
+                return Err(broken.unwrap_or(Error::StepTooSmall { time: clock.time.into() }));
+            }
+            next = larger(step * self.controller.rejected(error), self.steps.least);
+        }
+    }
+
+    /// The acceleration at the front.
+    fn acceleration(&mut self) -> Result<SVector<T, NV>, Error> {
+        if let Some(acceleration) = self.front.acceleration {
+            return Ok(acceleration);
+        }
+        let Front { clock, state: State { q, v }, .. } = &self.front;
+        let tau = (self.input)(clock.time, &self.front.state);
+        self.robot.try_forward_dynamics(q, v, &tau)
+    }
+
+    /// The step within its bounds, and within the time that remains; none that is too small.
+    fn bounded(&self, step: T, remaining: T) -> Option<T> {
+        let Steps { least, greatest, .. } = self.steps;
+        let step = greatest.map_or(step, |greatest| smaller(step, greatest));
+        // The time that rounding resolves.
+        let grain = magnitude(self.front.clock.time) * rounding::<T>() * T::of(16.0);
+        if step.mul_add(T::of(1e-2), step) >= remaining {
+            return Some(remaining);
+        }
+        let in_halves = step + step >= remaining && least + least <= remaining;
+        let step = if in_halves { remaining * T::of(0.5) } else { step };
+        let sound = step >= larger(grain, T::of(1e-30));
+        sound.then_some(larger(step, least))
+    }
+
+    /// A first step, by how fast speeds change, and how fast that does.
+    ///
+    /// # Source
+    ///
+    /// E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993, §II.4.
+    fn first_step(&mut self, acceleration: SVector<T, NV>, remaining: T) -> T {
+        let Front { clock, state: State { q, v }, .. } = self.front;
+        let norm = |x: &SVector<T, NV>| self.tolerances.norm([Part { x, sizes: [&v, &v] }]);
+        let (size, rate) = (norm(&v), norm(&acceleration));
+        let small = T::of(1e-5);
+        let guess = if size > small && rate > small { T::of(0.01) * (size / rate) } else { T::of(1e-6) };
+        let guess = smaller(guess, remaining);
+        let after = State { q: self.robot.integrate(&q, &(v * guess)), v: v + acceleration * guess };
+        let tau = (self.input)(clock.time + guess, &after);
+        let change = self.robot.forward_dynamics(&after.q, &after.v, &tau) - acceleration;
+        let bend = larger(rate, norm(&change) / guess);
+        let smooth = if bend > T::of(1e-15) { fifth_root(T::of(0.01) / bend) } else { remaining };
+        let step = smaller(smaller(guess * T::of(100.0), smooth), remaining);
+        larger(step, self.steps.least)
+    }
+}

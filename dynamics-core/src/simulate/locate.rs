@@ -1,0 +1,124 @@
+//! The first event on a piece of a motion.
+
+use super::event::Event;
+use super::numbers::{magnitude, rounding};
+use super::segment::Segment;
+use crate::error::Error;
+use crate::scalar::Scalar;
+use crate::state::{Configuration, State};
+
+/// So many parts of a step are looked at: what passes zero twice within one of them is not seen.
+const PARTS: u32 = 8;
+
+/// Brackets of one unit of rounding are reached by halving after so many times at the latest; ITP has one more.
+const MOST_ITERATIONS: u32 = 64;
+
+/// A moment and the state then.
+#[derive(Clone, Copy)]
+pub(super) struct Moment<T, const NQ: usize, const NV: usize> {
+    pub(super) time: T,
+    pub(super) state: State<T, NQ, NV>,
+}
+
+/// The first moment after `from` and up to `end` at which an event has happened, and which have.
+///
+/// It lies behind the zero by rounding, so that the functions have their new signs there, and a search that goes on
+/// from it does not find the same again.
+pub(super) fn first<R, T, V, const NQ: usize, const NV: usize, const E: usize>(
+    robot: &R,
+    segment: &Segment<T, NQ, NV>,
+    from: Moment<T, NQ, NV>,
+    end: T,
+    events: &[V; E],
+) -> Result<Option<(Moment<T, NQ, NV>, [bool; E])>, Error>
+where
+    R: Configuration<T, NQ, NV>,
+    T: Scalar + PartialOrd,
+    V: Event<R, T, NQ, NV>,
+{
+    let at = |time: T| Moment { time, state: segment.at(robot, time) };
+    let value = |event: &V, Moment { time, state }: Moment<T, NQ, NV>| event.value(robot, time, &state);
+    let values = |moment| checked(events.each_ref().map(|event| value(event, moment)));
+    let part = (end - from.time) / T::of(f64::from(PARTS));
+    let (mut before, mut old) = (from, values(from)?);
+    for k in 1..=PARTS {
+        let time = if k == PARTS { end } else { part.mul_add(T::of(f64::from(k)), from.time) };
+        let after = at(time);
+        let new = values(after)?;
+        let mut earliest: Option<T> = None;
+        for (event, (old, new)) in events.iter().zip(old.iter().zip(&new)) {
+            if event.direction().is_passed(*old, *new) {
+                let found = zero([before.time, time], [*old, *new], |time| value(event, at(time)));
+                earliest = Some(earliest.map_or(found, |time| if found < time { found } else { time }));
+            }
+        }
+        if let Some(time) = earliest {
+            let moment = at(time);
+            let now = values(moment)?;
+            let mut happened = events.iter().zip(old.iter().zip(&now));
+            let happened = core::array::from_fn(|_| {
+                happened.next().is_some_and(|(event, (old, now))| event.direction().is_passed(*old, *now))
+            });
+            return Ok(Some((moment, happened)));
+        }
+        (before, old) = (after, new);
+    }
+    Ok(None)
+}
+
+/// The values, if all of them are numbers.
+fn checked<T: Scalar + PartialOrd, const E: usize>(values: [T; E]) -> Result<[T; E], Error> {
+    match values.iter().position(|value| value.partial_cmp(value).is_none()) {
+        Some(index) => Err(Error::NotFinite { vector: "event", index }),
+        None => Ok(values),
+    }
+}
+
+/// The end of a bracket of rounding's width around a zero of `f` between two times, at which `f` has its later sign.
+///
+/// Interpolation, truncation and projection: never more evaluations than halving and one, and far fewer where `f` is
+/// smooth.
+///
+/// # Source
+///
+/// I. Oliveira, R. Takahashi, *An enhancement of the bisection method average performance preserving minmax
+/// optimality*, ACM TOMS 47 (2021) 5.
+fn zero<T: Scalar + PartialOrd>(
+    [mut a, mut b]: [T; 2],
+    [mut at_a, mut at_b]: [T; 2],
+    f: impl Fn(T) -> T,
+) -> T {
+    let (half, zero) = (T::of(0.5), T::zero());
+    let least = (magnitude(a) + magnitude(b)) * (rounding::<T>() + rounding::<T>());
+    let bias = T::of(0.2) / (b - a);
+    let rises = at_a < zero;
+    let mut reach = least; // of the projection: what halvings that are left would leave
+    let mut halvings = 0;
+    while reach < b - a && halvings < MOST_ITERATIONS {
+        reach += reach;
+        halvings += 1;
+    }
+    for _ in 0..=halvings {
+        let (width, middle) = (b - a, a + (b - a) * half);
+        if width <= least {
+            break;
+        }
+        let falsi = (at_b * a - at_a * b) / (at_b - at_a);
+        let aside = bias * width * width;
+        let towards = |step: T| if falsi < middle { step } else { -step };
+        let truncated = if aside <= magnitude(middle - falsi) { falsi + towards(aside) } else { middle };
+        let room = reach - width * half;
+        let projected =
+            if magnitude(truncated - middle) <= room { truncated } else { middle - towards(room) };
+        let next = if projected > a && projected < b { projected } else { middle };
+        let value = f(next);
+        let passed = if rises { value >= zero } else { value <= zero };
+        if passed {
+            (b, at_b) = (next, value);
+        } else {
+            (a, at_a) = (next, value);
+        }
+        reach *= half;
+    }
+    b
+}

@@ -1,0 +1,216 @@
+//! The variational integrator: order, energy, momentum, reversal, and what it does not solve.
+#![cfg(feature = "std")]
+
+mod common;
+
+use common::free_box::FreeBox;
+use common::{DoublePendulum, G, Pendulum, Spinner, random_numbers, random_vector};
+use dynamics_core::nalgebra::Vector3;
+use dynamics_core::prelude::*;
+use dynamics_core::simulate::MomentumMonitor;
+
+fn tossed() -> State<f64, 7, 6> {
+    State::new(
+        SVector::from([0.2, -0.3, 1.0, 0.1, -0.5, 0.7, 0.5]),
+        SVector::from([1.0, -2.0, 4.0, 2.0, 5.0, -3.0]),
+    )
+}
+
+/// `h²·a` by central differences is Störmer's method, which it must be where M is constant.
+#[test]
+fn of_a_pendulum_it_is_stoermer_and_verlet() {
+    let robot = Pendulum { m: 0.7_f64, l: 1.3, damping: 0.0 };
+    let (h, start) = (0.05, State::new(SVector::from([1.1]), SVector::from([-0.4])));
+    let mut simulation = Simulation::new(&robot, start, h).expect("valid").with_integrator(Variational);
+    let mut q = vec![start.q[0]];
+    q.extend(simulation.steps(200).map(|sample| sample.expect("finite").state.q[0]));
+    for three in q.windows(3) {
+        let by_differences = three[2] - 2.0 * three[1] + three[0];
+        let by_force = -h * h * G / 1.3 * three[1].sin();
+        assert!((by_differences - by_force).abs() < 4e-15, "{by_differences:e} is not {by_force:e}");
+    }
+}
+
+/// The greatest distance of the energy from that at the start, in steps from `from` on.
+fn swing<R, const NQ: usize, const NV: usize>(
+    robot: &R,
+    start: State<f64, NQ, NV>,
+    step: f64,
+    steps: usize,
+) -> f64
+where
+    R: Dynamics<f64, NQ, NV> + Configuration<f64, NQ, NV>,
+{
+    let mut simulation = Simulation::new(robot, start, step).expect("valid").with_integrator(Variational);
+    let joules = simulation.sample().energy().total();
+    let off = |sample: Sample<'_, R, f64, NQ, NV>| (sample.energy().total() - joules).abs();
+    simulation.steps(steps).map(|sample| off(sample.expect("finite"))).fold(0.0, f64::max)
+}
+
+#[test]
+fn the_energy_of_a_pendulum_is_bounded_over_a_million_steps() {
+    let robot = Pendulum { m: 1.0_f64, l: 1.0, damping: 0.0 };
+    let start = State::rest(SVector::from([1.0]));
+    let (short, long) = (swing(&robot, start, 1e-2, 1_000), swing(&robot, start, 1e-2, 1_000_000));
+    // A million roundings of the energy's size wander by a thousand of them.
+    assert!(long < short + 1e-12, "{short:e} J became {long:e} J");
+    assert!(short < 5e-4, "the square of the step: {short:e} J");
+}
+
+/// Regular motion: of a chaotic one it is known for a time only that grows with 1/h.
+#[test]
+fn so_is_that_of_a_double_pendulum_whose_mass_matrix_varies() {
+    let start = State::rest(SVector::from([0.6, -0.4]));
+    let (short, long) =
+        (swing(&DoublePendulum, start, 5e-3, 2_000), swing(&DoublePendulum, start, 5e-3, 60_000));
+    // Two frequencies meet at their worst only after many periods.
+    assert!(long < 1.2 * short, "{short:e} J became {long:e} J");
+}
+
+#[test]
+fn so_is_that_of_a_box_that_tumbles() {
+    let (robot, start) = (FreeBox::drifting(), tossed());
+    let (short, long) = (swing(&robot, start, 2e-3, 2_000), swing(&robot, start, 2e-3, 60_000));
+    assert!(long < 1.05 * short, "{short:e} J became {long:e} J");
+}
+
+/// The momentum in world axes, linear and about the centre of mass.
+fn momentum(robot: &FreeBox, State { q, v }: &State<f64, 7, 6>) -> [Vector3<f64>; 2] {
+    let [linear, angular]: [Vector3<f64>; 2] = [v.fixed_rows::<3>(0).into(), v.fixed_rows::<3>(3).into()];
+    let rotation = FreeBox::rotation(q);
+    [rotation * (linear + angular.cross(&robot.com)) * robot.mass, rotation * (robot.inertia * angular)]
+}
+
+/// Noether's theorem holds of the sum as of the action: at a coarse step, where energy is off in its third digit.
+#[test]
+fn momenta_stay_to_rounding() {
+    let (robot, start) = (FreeBox::drifting(), tossed());
+    let [p, l] = momentum(&robot, &start);
+    let mut simulation = Simulation::new(&robot, start, 2e-2).expect("valid").with_integrator(Variational);
+    for sample in simulation.steps(10_000) {
+        let [linear, angular] = momentum(&robot, &sample.expect("finite").state);
+        // Of 8 kg·m/s and 0.4 kg·m²/s; ten thousand roundings that wander.
+        assert!((linear - p).norm() < 1e-12, "{:e}", (linear - p).norm());
+        assert!((angular - l).norm() < 1e-13, "{:e}", (angular - l).norm());
+    }
+}
+
+#[test]
+fn under_gravity_the_angular_momentum_stays_and_the_linear_one_grows() {
+    let (robot, start) = (FreeBox::tossed(), tossed());
+    let [p, l] = momentum(&robot, &start);
+    let mut simulation = Simulation::new(&robot, start, 1e-2).expect("valid").with_integrator(Variational);
+    for sample in simulation.steps(200) {
+        let Sample { time, state, .. } = sample.expect("finite");
+        let [linear, angular] = momentum(&robot, &state);
+        assert!((linear - p - robot.mass * robot.gravity * time).norm() < 1e-12, "after {time} s");
+        assert!((angular - l).norm() < 1e-13, "after {time} s");
+    }
+}
+
+#[test]
+fn a_motion_backwards_comes_to_where_it_began() {
+    let there = |start| {
+        let mut simulation =
+            Simulation::new(&DoublePendulum, start, 1e-2).expect("valid").with_integrator(Variational);
+        let State { q, v } = simulation.steps(500).last().expect("steps").expect("finite").state;
+        State::new(q, -v)
+    };
+    let start = State::new(SVector::from([0.9, -0.3]), SVector::from([0.4, 1.0]));
+    let State { q, v } = there(there(start));
+    // Neighbouring motions part by some hundreds of times in ten seconds.
+    assert!((q - start.q).amax() < 1e-12 && (v - start.v).amax() < 1e-12, "{:e}", (q - start.q).amax());
+}
+
+#[test]
+fn a_box_tumbles_back_too() {
+    let robot = FreeBox::drifting();
+    let there = |start: State<f64, 7, 6>| {
+        let mut simulation =
+            Simulation::new(&robot, start, 1e-2).expect("valid").with_integrator(Variational);
+        let State { q, v } = simulation.steps(300).last().expect("steps").expect("finite").state;
+        State::new(q, -v)
+    };
+    let start = tossed();
+    let State { q, v } = there(there(start));
+    assert!(robot.difference(&start.q, &q).amax() < 1e-11);
+    assert!((v - start.v).amax() < 1e-11);
+}
+
+#[test]
+fn a_quaternion_alone_keeps_length_and_momentum() {
+    let (inertia, mut random) = (Spinner.mass_matrix(&Spinner.neutral()), random_numbers(5));
+    let start = State::new(random_vector::<4>(&mut random, 1.0).normalize(), random_vector(&mut random, 3.0));
+    let in_world = |State { q, v }: &State<f64, 4, 3>| {
+        use dynamics_core::nalgebra::{Quaternion, UnitQuaternion};
+        UnitQuaternion::new_unchecked(Quaternion::from(*q)) * (inertia * v)
+    };
+    let before = in_world(&start);
+    let mut simulation = Simulation::new(&Spinner, start, 2e-2).expect("valid").with_integrator(Variational);
+    for sample in simulation.steps(5_000) {
+        let state = sample.expect("finite").state;
+        assert!((in_world(&state) - before).norm() < 1e-12);
+        assert!((state.q.norm_squared() - 1.0).abs() <= 4.0 * f64::EPSILON);
+    }
+}
+
+#[test]
+fn a_step_too_large_is_an_error_and_leaves_the_state() {
+    let start = State::new(SVector::from([0.4, 0.9]), SVector::from([3.0, -5.0]));
+    let mut simulation =
+        Simulation::new(&DoublePendulum, start, 3.0).expect("valid").with_integrator(Variational);
+    assert_eq!(simulation.step().err(), Some(Error::NotConverged { iterations: 50 }));
+    assert_eq!((simulation.time(), simulation.state()), (0.0, &start));
+}
+
+#[test]
+fn what_rests_stays_at_rest() {
+    let start = State::rest(SVector::from([1.2, -0.7]));
+    let mut simulation = Simulation::new(&DoublePendulum, start, 1e-2)
+        .expect("valid")
+        .with_integrator(Variational)
+        .with_input(|_time, state| DoublePendulum.gravity_forces(&state.q));
+    for sample in simulation.steps(100) {
+        assert!((sample.expect("finite").state.q - start.q).norm() < 1e-14);
+    }
+    let drifting = FreeBox::drifting();
+    let mut nothing = Simulation::new(&drifting, State::rest(tossed().q), 1e-2)
+        .expect("valid")
+        .with_integrator(Variational);
+    let last = nothing.steps(10).last().expect("steps").expect("nothing moves").state;
+    assert_eq!(last.v.amax(), 0.0);
+}
+
+#[test]
+fn it_runs_in_single_precision() {
+    let robot = Pendulum { m: 1.0_f32, l: 1.0, damping: 0.5 };
+    let mut simulation = Simulation::new(&robot, State::rest(SVector::from([0.5_f32])), 1e-3)
+        .expect("valid")
+        .with_integrator(Variational);
+    assert!(simulation.steps(20_000).all(|sample| sample.is_ok()));
+    assert!(simulation.state().q.norm() < 0.01, "damping brings it to rest");
+}
+
+/// A monitor of momenta sees what the box does; its centre of mass is its own.
+#[test]
+fn a_monitor_watches_the_momenta() {
+    let (robot, start) = (FreeBox::drifting(), tossed());
+    let mut simulation = Simulation::new(&robot, start, 1e-2).expect("valid").with_integrator(Variational);
+    let mut monitor = MomentumMonitor::new(&simulation.sample());
+    for sample in simulation.steps(1_000) {
+        monitor.observe(&sample.expect("finite"));
+    }
+    assert!(monitor.linear() < 1e-12 && monitor.angular() < 1e-12, "{monitor:?}");
+    // The centre of mass has flown 50 m.
+    assert!(monitor.about_origin() < 1e-10, "{monitor:?}");
+
+    let falls = FreeBox::tossed();
+    let mut simulation = Simulation::new(&falls, start, 1e-2).expect("valid");
+    let mut monitor = MomentumMonitor::new(&simulation.sample());
+    for sample in simulation.steps(100) {
+        monitor.observe(&sample.expect("finite"));
+    }
+    let expected = falls.mass * falls.gravity.norm();
+    assert!((monitor.linear() - expected).abs() < 1e-6, "{monitor:?} is not {expected}");
+    assert!(monitor.about_origin() > 1.0);
+}
