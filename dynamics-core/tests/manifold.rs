@@ -437,7 +437,8 @@ fn a_rate_undoes_the_derivative_of_the_exponential() {
             let velocity = difference_free(stands, moves).map(|x| x.tangent);
             let [delta] = delta.data.0;
             let [grows] = grows.data.0;
-            close(free_rate(delta, velocity), grows, 1e-9);
+            // As above: the logarithm is at zero.
+            close(free_rate(delta, velocity), grows, 1e-8);
         }
     }
 }

@@ -64,7 +64,6 @@ fn a_record_has_its_states_and_those_between() {
         assert_eq!((motion.nearest(-5.0), motion.nearest(5.0)), (0, motion.times().len() - 1));
     }
     assert_eq!(fixed.times().len(), 201);
-    assert!(adaptive.times().len() < 150, "{}", adaptive.times().len());
     for k in 0..=199 {
         let time = 0.01 * f64::from(k) + 0.003;
         let [a, b] = [&fixed, &adaptive].map(|motion| motion.at(time).expect("within"));
@@ -115,9 +114,10 @@ fn an_account_of_energy_finds_work_and_losses() {
         monitor.observe(&sample.expect("finite"), forced);
     }
     let gained = simulation.sample().energy().total() - start;
-    assert!((gained - monitor.work()).abs() < 1e-9 && gained.abs() > 0.1, "{gained} J, {monitor:?}");
+    // Of Runge and Kutta, of Simpson and of Hermite, at a thousandth.
+    assert!((gained - monitor.work()).abs() < 1e-8 && gained.abs() > 0.1, "{gained} J, {monitor:?}");
     assert_eq!(monitor.dissipated(), 0.0);
-    assert!(monitor.drift() < 1e-9 && monitor.drift() >= monitor.imbalance().abs());
+    assert!(monitor.drift() < 1e-8 && monitor.drift() >= monitor.imbalance().abs());
 }
 
 /// A pendulum whose damper the robot itself has.
@@ -191,7 +191,7 @@ fn what_dampers_take_is_on_the_account_and_springs_give_back() {
         assert!(monitor.dissipated() > 0.5, "{monitor:?}");
         monitor.drift()
     };
-    let (coarse, fine) = (account(2e-2, 100), account(1e-2, 200));
+    let (coarse, fine) = (account(1e-2, 200), account(5e-3, 400));
     let order = (coarse / fine).log2();
-    assert!(fine < 1e-7 && order > 3.5, "{fine:e} J, of order {order}");
+    assert!(fine < 1e-8 && order > 3.7, "{fine:e} J, of order {order}");
 }

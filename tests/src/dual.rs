@@ -129,3 +129,10 @@ impl Scalar for Dual {
         self.value.is_finite() && self.tangent.is_finite()
     }
 }
+
+/// The value, which steps of an adaptive size and events go by.
+impl From<Dual> for f64 {
+    fn from(dual: Dual) -> Self {
+        dual.value
+    }
+}

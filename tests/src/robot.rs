@@ -11,6 +11,10 @@ pub enum Method {
     Rk4,
     /// [`SemiImplicitEuler`]
     SemiImplicitEuler,
+    /// [`Variational`]
+    Variational,
+    /// [`Adaptive`], within 1e-11, sampled at each step
+    Adaptive,
 }
 
 /// In which axes a six-vector of a frame is written.
@@ -101,6 +105,10 @@ pub trait Robot<T: Scalar> {
     fn integrate(&self, q: &Vector<T>, delta: &Vector<T>) -> Vector<T>;
     /// `q₁ ⊖ q₀`
     fn difference(&self, q0: &Vector<T>, q1: &Vector<T>) -> Vector<T>;
+    /// `δ̇` where `q ⊕ δ` moves with `v`
+    fn rate(&self, delta: &Vector<T>, v: &Vector<T>) -> Vector<T>;
+    /// The transposed of that map, of forces.
+    fn rate_transposed(&self, delta: &Vector<T>, p: &Vector<T>) -> Vector<T>;
     /// Zeros, and quaternions of no rotation.
     fn neutral(&self) -> Vector<T>;
     /// Whether quaternions are of unit length.

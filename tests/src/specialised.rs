@@ -1,6 +1,7 @@
 //! A compiled robot with its sizes, behind the interface without them.
 
 use dynamics_core::prelude::*;
+use dynamics_core::simulate::{CoordinateAt, EnergyMonitor};
 use dynamics_core::state;
 
 use crate::frames::Frames;
@@ -52,7 +53,7 @@ where
         + CentroidalDynamics<T, NQ, NV>
         + Regressor<T, NQ, NV, NP>
         + BaseRegressor<T, NQ, NV, NB>,
-    T: Scalar + PartialOrd,
+    T: Scalar + PartialOrd + Into<f64>,
 {
     fn mass_matrix(&self, q: &Vector<T>) -> Matrix<T> {
         matrix(self.robot.mass_matrix(&fixed(q)))
@@ -172,6 +173,14 @@ where
         vector(self.robot.difference(&fixed(q0), &fixed(q1)))
     }
 
+    fn rate(&self, delta: &Vector<T>, v: &Vector<T>) -> Vector<T> {
+        vector(self.robot.rate(&fixed(delta), &fixed(v)))
+    }
+
+    fn rate_transposed(&self, delta: &Vector<T>, p: &Vector<T>) -> Vector<T> {
+        vector(self.robot.rate_transposed(&fixed(delta), &fixed(p)))
+    }
+
     fn neutral(&self) -> Vector<T> {
         vector(self.robot.neutral())
     }
@@ -232,9 +241,18 @@ where
     ) -> Result<Run<T>, Error> {
         let from = state::State::new(fixed(q), fixed(v));
         let simulation = Simulation::new(&self.robot, from, step)?;
+        let first = simulation.sample();
         match by {
-            Method::Rk4 => run(simulation, count),
-            Method::SemiImplicitEuler => run(simulation.with_integrator(SemiImplicitEuler), count),
+            Method::Rk4 => run(first, { simulation }.steps(count)),
+            Method::SemiImplicitEuler => {
+                run(first, simulation.with_integrator(SemiImplicitEuler).steps(count))
+            }
+            Method::Variational => run(first, simulation.with_integrator(Variational).steps(count)),
+            Method::Adaptive => {
+                let mut adaptive = Adaptive::new(&self.robot, from, Tolerances::of(T::of(1e-11)))?;
+                let end = step * T::of(count as f64);
+                run(first, adaptive.every(step, end))
+            }
         }
     }
 
@@ -276,25 +294,33 @@ where
         for sample in euler.with_input(|_, _| *a).steps(count) {
             sum += sample?.energy().total();
         }
+        let mut variational = Simulation::new(robot, from, T::of(1e-3))?.with_integrator(Variational);
+        let mut monitor = EnergyMonitor::new(&variational.sample());
+        for sample in variational.steps(count) {
+            monitor.observe(&sample?, |_, _| *a);
+        }
+        let mut adaptive = Adaptive::new(robot, from, Tolerances::of(T::of(1e-4)))?;
+        let never = CoordinateAt { index: 0, value: T::of(1e3) };
+        sum +=
+            monitor.work() + adaptive.advance_until(T::of(1e-3), &[never])?.sample.momentum().angular.sum();
         Ok(sum)
     }
 }
 
-fn run<R, T, I, U, const NQ: usize, const NV: usize>(
-    mut simulation: Simulation<'_, R, T, NQ, NV, I, U>,
-    count: usize,
+fn run<'r, R, T, const NQ: usize, const NV: usize>(
+    first: Sample<'r, R, T, NQ, NV>,
+    samples: impl Iterator<Item = Result<Sample<'r, R, T, NQ, NV>, Error>>,
 ) -> Result<Run<T>, Error>
 where
-    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
+    R: Dynamics<T, NQ, NV> + 'r,
     T: Scalar,
-    I: Integrator,
-    U: FnMut(T, &state::State<T, NQ, NV>) -> SVector<T, NV>,
 {
-    let mut energies = vec![simulation.sample().energy().total()];
-    for sample in simulation.steps(count) {
-        energies.push(sample?.energy().total());
+    let (mut energies, mut last) = (vec![first.energy().total()], first);
+    for sample in samples {
+        last = sample?;
+        energies.push(last.energy().total());
     }
-    let state::State { q, v } = *simulation.state();
+    let state::State { q, v } = last.state;
     Ok(Run { energies, q: vector(q), v: vector(v) })
 }
 

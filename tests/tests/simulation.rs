@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use dynamics_core::prelude::*;
-use dynamics_tests::Method::{self, Rk4, SemiImplicitEuler};
+use dynamics_tests::Method::{self, Adaptive, Rk4, SemiImplicitEuler, Variational};
 use dynamics_tests::close::ROUNDING;
 use dynamics_tests::zoo::files::hyq;
 use dynamics_tests::zoo::fixtures::lift;
@@ -35,8 +35,10 @@ fn every_robot_conserves_its_energy_or_loses_it_to_dampers_and_friction() {
         let (q, v) = start(&entry);
         let springs = robot.passive_forces(&q, &Vector::zeros(v.len()));
         if robot.passive_forces(&q, &v) == springs {
-            let found = drift(&*robot, &q, &v, 5e-4, 0.1, Rk4);
-            assert!(found <= DRIFT, "{}: the energy drifts by {found:.1e}", entry.name);
+            for by in [Rk4, Adaptive] {
+                let found = drift(&*robot, &q, &v, 5e-4, 0.1, by);
+                assert!(found <= DRIFT, "{}: the energy drifts by {found:.1e}, by {by:?}", entry.name);
+            }
             continue;
         }
         let Run { energies, .. } = robot.simulate((&q, &v), 5e-4, 200, Rk4).expect("it stays finite");
@@ -53,7 +55,7 @@ fn halving_the_step_divides_the_error_by_the_order() {
         robot.simulate((&q, &v), step, count, by).expect("it stays finite").q
     };
     let exact = end(1.25e-4, Rk4);
-    for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0)] {
+    for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0), (Variational, 2e-3, 2.0)] {
         let error = |step| (end(step, by) - &exact).amax();
         // Over three halvings, from a start where the next order is small: elsewhere it hides this one.
         let found = (error(step) / error(step / 8.0)).log2() / 3.0;
@@ -95,6 +97,41 @@ fn momentum_about_a_vertical_first_axis_is_conserved() {
         let change = (momentum(&end.q, &end.v) - momentum(&q, &v)).abs() / size;
         assert!(change < 1e-7, "{}: momentum changes by {change:.1e}", entry.name);
         assert!((end.q - &q).amax() > 1e-3, "{} has not moved", entry.name);
+    }
+}
+
+/// The same theorem of the variational method's sum: at a step at which Runge and Kutta lose the fifth digit.
+#[test]
+fn a_variational_method_conserves_it_to_rounding() {
+    let vertical = ["RoboJudge", "SphericalArm", "PlanarScara", "Torso", "Iiwa14", "Scara", "StanfordArm"];
+    let mut count = 0;
+    for (entry, Forms { robot, .. }) in zoo::in_double().filter(|(entry, _)| vertical.contains(&entry.name)) {
+        count += 1;
+        let (q, v) = start(&entry);
+        let momentum = |q: &Vector, v: &Vector| (robot.mass_matrix(q) * v)[0];
+        let end = robot.simulate((&q, &v), 2e-3, 100, Variational).expect("its steps are solved");
+        let size = (robot.mass_matrix(&q).abs() * v.abs())[0];
+        let change = (momentum(&end.q, &end.v) - momentum(&q, &v)).abs() / size;
+        // A hundred steps, each solved to some roundings times what the condition of M makes of them.
+        assert!(change < 1e-11, "{}: momentum changes by {change:.1e}", entry.name);
+    }
+    assert_eq!(count, vertical.len());
+}
+
+/// Its equations have Cᵀ, the commutators of ball and free joints, and passive forces: what is wrong in any of them
+/// makes the order zero or one.
+#[test]
+fn a_variational_method_is_of_order_two_for_every_robot() {
+    for (entry, Forms { robot, .. }) in zoo::in_double() {
+        let (q, v) = start(&entry);
+        let run = |count: usize, by| robot.simulate((&q, &v), 0.02 / count as f64, count, by);
+        let exact = run(400, Rk4).expect("it stays finite");
+        let error = |count: usize| {
+            let end = run(count, Variational).expect("its steps are solved");
+            robot.difference(&exact.q, &end.q).norm() + (end.v - &exact.v).norm()
+        };
+        let order = (error(50) / error(200)).log2() / 2.0;
+        assert!((order - 2.0).abs() < 0.2, "{}: order {order:.2}", entry.name);
     }
 }
 
@@ -168,7 +205,7 @@ fn halving_the_step_divides_the_error_by_the_order_on_a_manifold() {
         robot.simulate((&q, &v), step, count, by).expect("it stays finite").q
     };
     let exact = end(1.25e-4, Rk4);
-    for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0)] {
+    for (by, step, order) in [(Rk4, 0.01, 4.0), (SemiImplicitEuler, 5e-4, 1.0), (Variational, 2e-3, 2.0)] {
         let error = |step| robot.difference(&exact, &end(step, by)).amax();
         let found = (error(step) / error(step / 8.0)).log2() / 3.0;
         assert!((found - order).abs() < 0.1, "{by:?} has order {found:.2}");

@@ -207,7 +207,8 @@ where
     ///
     /// Several that happen together are returned together; one that was returned is not found again. After any, the
     /// simulation can go on as it was, or from [another state](Self::set_state). An event is found by the sign of its
-    /// function at eight moments of each step; the time is exact to rounding, on the step's polynomial.
+    /// function at eight moments of each step, and by which way it turns there: twice within an eighth is seen, and
+    /// not more. The time is exact to rounding, on the step's polynomial.
     ///
     /// # Errors
     ///
@@ -277,18 +278,19 @@ where
         interval: T,
         until: T,
     ) -> impl Iterator<Item = Result<Sample<'r, R, T, NQ, NV>, Error>> {
-        let (start, mut count) = (self.time, 0_u32);
+        let (start, mut count) = (self.time, Some(0_u32));
         let positive = interval > T::zero() && interval.is_finite();
         let sound = if positive { self.check_ahead(until).map(|_| ()) } else { Err(Error::StepNotPositive) };
         // The last one may be late by rounding.
         let latest = interval.mul_add(T::of(1e-3), until);
         until_error(move || {
-            count = count.saturating_add(1);
-            let time = interval.mul_add(T::of(f64::from(count)), start);
-            match sound {
-                Ok(()) if time > latest => None,
-                Ok(()) => Some(self.sample_on_the_way(smaller(time, until), until)),
-                Err(error) => Some(Err(error)),
+            count = count.and_then(|count| count.checked_add(1));
+            let time = count.map(|count| interval.mul_add(T::of(f64::from(count)), start));
+            match (sound, time) {
+                (Ok(()), Some(time)) if time > latest => None,
+                (Ok(()), Some(time)) => Some(self.sample_on_the_way(smaller(time, until), until)),
+                (Ok(()), None) => Some(Err(Error::TooManySteps { time: self.time.into() })),
+                (Err(error), _) => Some(Err(error)),
             }
         })
     }

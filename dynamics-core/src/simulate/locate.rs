@@ -1,13 +1,13 @@
 //! The first event on a piece of a motion.
 
-use super::event::Event;
-use super::numbers::{magnitude, rounding};
+use super::event::{Direction, Event};
+use super::numbers::{magnitude, rounding, smaller};
 use super::segment::Segment;
 use crate::error::Error;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
 
-/// So many parts of a step are looked at: what passes zero twice within one of them is not seen.
+/// So many parts of a step are looked at: of what passes zero twice within one of them, a single hump is seen.
 const PARTS: u32 = 8;
 
 /// Brackets of one unit of rounding are reached by halving after so many times at the latest; ITP has one more.
@@ -45,25 +45,94 @@ where
         let time = if k == PARTS { end } else { part.mul_add(T::of(f64::from(k)), from.time) };
         let after = at(time);
         let new = values(after)?;
-        let mut earliest: Option<T> = None;
-        for (event, (old, new)) in events.iter().zip(old.iter().zip(&new)) {
-            if event.direction().is_passed(*old, *new) {
-                let found = zero([before.time, time], [*old, *new], |time| value(event, at(time)));
-                earliest = Some(earliest.map_or(found, |time| if found < time { found } else { time }));
-            }
-        }
-        if let Some(time) = earliest {
+        let mut crossings = events.iter().zip(old.iter().zip(&new)).map(|(event, (old, new))| {
+            crossing(event.direction(), [before.time, time], [*old, *new], |time| value(event, at(time)))
+        });
+        let crossings: [Option<Crossing<T>>; E] = core::array::from_fn(|_| crossings.next().flatten());
+        let earliest = crossings.iter().flatten().map(|crossing| crossing.found);
+        if let Some(time) = earliest.reduce(smaller) {
             let moment = at(time);
-            let now = values(moment)?;
-            let mut happened = events.iter().zip(old.iter().zip(&now));
-            let happened = core::array::from_fn(|_| {
-                happened.next().is_some_and(|(event, (old, now))| event.direction().is_passed(*old, *now))
+            let mut happened = events.iter().zip(&crossings).map(|(event, crossing)| {
+                crossing.as_ref().is_some_and(|Crossing { begin, old, .. }| {
+                    *begin < time && event.direction().is_passed(*old, value(event, moment))
+                })
             });
-            return Ok(Some((moment, happened)));
+            return Ok(Some((moment, core::array::from_fn(|_| happened.next().unwrap_or(false)))));
         }
         (before, old) = (after, new);
     }
     Ok(None)
+}
+
+/// A sign that changes between two times.
+struct Crossing<T> {
+    begin: T,
+    /// The value at the beginning.
+    old: T,
+    /// Where it is the other one, to rounding.
+    found: T,
+}
+
+/// The first crossing in a direction, between two times with their values.
+fn crossing<T: Scalar + PartialOrd>(
+    direction: Direction,
+    [begin, end]: [T; 2],
+    [old, new]: [T; 2],
+    f: impl Fn(T) -> T + Copy,
+) -> Option<Crossing<T>> {
+    let within = |begin: T, end: T, old: T, new: T| {
+        let found = || zero([begin, end], [old, new], f);
+        direction.is_passed(old, new).then(|| Crossing { begin, old, found: found() })
+    };
+    match hump([begin, end], [old, new], f) {
+        Some((top, over)) => within(begin, top, old, over).or_else(|| within(top, end, over, new)),
+        None => within(begin, end, old, new),
+    }
+}
+
+/// A time at which `f` has another sign than at both ends, with its value: where it goes towards zero, and comes back.
+///
+/// After an impact it begins on zero, so that a short flight is such a hump. By golden sections, as far as these see.
+fn hump<T: Scalar + PartialOrd>([a, b]: [T; 2], [at_a, at_b]: [T; 2], f: impl Fn(T) -> T) -> Option<(T, T)> {
+    const SECTIONS: usize = 48;
+    let zero = T::zero();
+    let above = match (at_a <= zero && at_b < zero, at_a >= zero && at_b > zero) {
+        (true, _) => T::one(),
+        (_, true) => -T::one(),
+        _ => return None,
+    };
+    let over = |value: T| value * above > zero;
+    let short = (b - a) * rounding::<T>().sqrt();
+    let first = f(a + short);
+    if over(first) {
+        return Some((a + short, first));
+    }
+    let turns = (first - at_a) * above > zero && (f(b - short) - at_b) * above > zero;
+    if !turns {
+        return None;
+    }
+    let golden = T::of(0.618_033_988_749_895);
+    let (mut a, mut b) = (a, b);
+    let (mut left, mut right) = (b - (b - a) * golden, a + (b - a) * golden);
+    let (mut at_left, mut at_right) = (f(left), f(right));
+    for _ in 0..SECTIONS {
+        if over(at_left) {
+            return Some((left, at_left));
+        }
+        if over(at_right) {
+            return Some((right, at_right));
+        }
+        if (at_left - at_right) * above > zero {
+            (b, right, at_right) = (right, left, at_left);
+            left = b - (b - a) * golden;
+            at_left = f(left);
+        } else {
+            (a, left, at_left) = (left, right, at_right);
+            right = a + (b - a) * golden;
+            at_right = f(right);
+        }
+    }
+    None
 }
 
 /// The values, if all of them are numbers.

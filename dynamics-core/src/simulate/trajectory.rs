@@ -157,9 +157,9 @@ where
     pub fn every(&self, interval: T) -> impl Iterator<Item = Sample<'r, R, T, NQ, NV>> {
         let (start, robot) = (self.start(), self.robot);
         let sound = interval > T::zero();
-        let count = if sound { usize::MAX } else { 1 };
-        (0..count).map_while(move |k| {
-            let time = interval.mul_add(T::of(k as f64), start);
+        let last = if sound { u32::MAX } else { 0 };
+        (0..=last).map_while(move |k| {
+            let time = interval.mul_add(T::of(f64::from(k)), start);
             let time = if sound { time } else { start };
             self.at(time).map(|state| Sample { time, state, robot })
         })

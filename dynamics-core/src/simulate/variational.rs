@@ -73,7 +73,7 @@ impl Integrator for Variational {
 
         let mut v = state.v; // ξ/h
         let mut last = None;
-        for _ in 0..MOST_ITERATIONS {
+        for iterations in 1..=MOST_ITERATIONS {
             let xi = v * step;
             let ours = product(&mass_matrix, &v);
             let theirs = product(&robot.mass_matrix(&robot.integrate(&state.q, &xi)), &v);
@@ -84,7 +84,10 @@ impl Integrator for Variational {
             let residual = momentum + kick - mean;
             let correction = product(&inverse, &residual);
             v += correction;
-            Error::unless_finite("v", &v)?;
+            let finite = Error::unless_finite("v", &v);
+            // What was finite at first has run away.
+            finite
+                .map_err(|error| if iterations > 1 { Error::NotConverged { iterations } } else { error })?;
             let error = dot(&residual, &correction);
             let size = floor + dot(&momentum, &state.v) + dot(&v, &product(&mass_matrix, &v));
             if is_solved(error, last, size) {

@@ -59,8 +59,11 @@ impl<T: Scalar> Dynamics<T, 1, 1> for Pendulum<T> {
         let (s, _) = q0.sin_cos();
         vector([self.m * T::of(G) * self.l * s])
     }
+    fn passive_forces(&self, _q: &SVector<T, 1>, v: &SVector<T, 1>) -> SVector<T, 1> {
+        v * self.damping
+    }
     fn bias_forces(&self, q: &SVector<T, 1>, v: &SVector<T, 1>) -> SVector<T, 1> {
-        self.gravity_forces(q) + v * self.damping
+        self.gravity_forces(q) + self.passive_forces(q, v)
     }
     fn inverse_dynamics(&self, q: &SVector<T, 1>, v: &SVector<T, 1>, a: &SVector<T, 1>) -> SVector<T, 1> {
         self.mass_matrix(q) * a + self.bias_forces(q, v)

@@ -92,6 +92,24 @@ fn tangent_rates_agree_with_differences() {
     });
 }
 
+/// `δ̇` where `q ⊕ δ` moves with the velocity v, far from δ = 0; and forces that do the same work.
+#[test]
+fn rates_agree_with_differences() {
+    /// A step of a thousandth, whose square times a third derivative is the error.
+    const ONCE: f64 = 2e-5;
+    const STEP: f64 = 1e-3;
+    for_each_state(|name, robot, State { q, v, a, .. }| {
+        let delta = a * (1.0 / a.amax().max(1.0));
+        let beside = robot.integrate(q, &delta);
+        let after = |t: f64| robot.difference(q, &robot.integrate(&beside, &(v * t)));
+        let found = (after(STEP) - after(-STEP)) / (2.0 * STEP);
+        let rate = robot.rate(&delta, v);
+        assert_close!(rate.as_slice(), found.as_slice(), ONCE, floor = 1.0, "{name}: rate");
+        let (work, same) = (rate.dot(a), v.dot(&robot.rate_transposed(&delta, a)));
+        assert_close!([work], [same], ROUNDING, floor = a.norm() * v.norm(), "{name}: work of δ");
+    });
+}
+
 #[test]
 fn quaternions_of_another_length_are_reported_by_their_place() {
     let mut count = 0;
