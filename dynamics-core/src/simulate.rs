@@ -66,7 +66,7 @@ pub type Unforced<T, const NQ: usize, const NV: usize> = fn(T, &State<T, NQ, NV>
 /// }
 /// # Ok(()) }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Simulation<'r, R, T, const NQ: usize, const NV: usize, I = Rk4, U = Unforced<T, NQ, NV>> {
     robot: &'r R,
     integrator: I,
@@ -174,6 +174,14 @@ where
             left = left.checked_sub(1)?;
             Some(self.step())
         })
+    }
+}
+
+impl<R, T: Scalar, I: Clone, U: Clone, const NQ: usize, const NV: usize> Clone
+    for Simulation<'_, R, T, NQ, NV, I, U>
+{
+    fn clone(&self) -> Self {
+        Self { integrator: self.integrator.clone(), input: self.input.clone(), ..*self }
     }
 }
 

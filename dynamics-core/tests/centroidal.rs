@@ -3,23 +3,9 @@
 
 mod common;
 
-use common::free_box::{FreeBox, blocks};
-use dynamics_core::nalgebra::{Matrix3, Vector3};
+use common::free_box::FreeBox;
+use dynamics_core::nalgebra::Vector3;
 use dynamics_core::prelude::*;
-
-impl CentroidalDynamics<f64, 7, 6> for FreeBox {
-    fn total_mass(&self) -> f64 {
-        self.mass
-    }
-    fn center_of_mass(&self, q: &SVector<f64, 7>) -> SVector<f64, 3> {
-        FreeBox::center_of_mass(self, q)
-    }
-    fn centroidal_momentum_matrix(&self, q: &SVector<f64, 7>) -> SMatrix<f64, 6, 6> {
-        let linear = FreeBox::rotation(q).into_inner() * self.mass;
-        let angular = FreeBox::rotation(q) * self.inertia;
-        blocks(linear, -linear * self.com.cross_matrix(), Matrix3::zeros(), angular)
-    }
-}
 
 fn state() -> State<f64, 7, 6> {
     State::new(

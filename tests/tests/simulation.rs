@@ -122,6 +122,9 @@ fn a_variational_method_conserves_it_to_rounding() {
 /// makes the order zero or one.
 #[test]
 fn a_variational_method_is_of_order_two_for_every_robot() {
+    /// Errors of which a sixteenth is still above rounding: of some robots the method has none.
+    const ROUNDED: f64 = 1e-9;
+    let mut count = 0;
     for (entry, Forms { robot, .. }) in zoo::in_double() {
         let (q, v) = start(&entry);
         let run = |count: usize, by| robot.simulate((&q, &v), 0.02 / count as f64, count, by);
@@ -130,9 +133,14 @@ fn a_variational_method_is_of_order_two_for_every_robot() {
             let end = run(count, Variational).expect("its steps are solved");
             robot.difference(&exact.q, &end.q).norm() + (end.v - &exact.v).norm()
         };
-        let order = (error(50) / error(200)).log2() / 2.0;
-        assert!((order - 2.0).abs() < 0.2, "{}: order {order:.2}", entry.name);
+        let (coarse, fine) = (error(50), error(200));
+        if coarse > ROUNDED {
+            count += 1;
+            let order = (coarse / fine).log2() / 2.0;
+            assert!((order - 2.0).abs() < 0.2, "{}: order {order:.2}", entry.name);
+        }
     }
+    assert!(count > 20, "{count} robots have an error to speak of");
 }
 
 #[test]

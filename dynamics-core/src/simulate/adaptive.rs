@@ -49,7 +49,7 @@ use crate::state::{Configuration, State};
 /// # Source
 ///
 /// J. Dormand, P. Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6 (1980) 19–26.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Adaptive<'r, R, T, const NQ: usize, const NV: usize, U = Unforced<T, NQ, NV>> {
     robot: &'r R,
     input: U,
@@ -405,5 +405,11 @@ where
         let smooth = if bend > T::of(1e-15) { fifth_root(T::of(0.01) / bend) } else { remaining };
         let step = smaller(smaller(guess * T::of(100.0), smooth), remaining);
         larger(step, self.steps.least)
+    }
+}
+
+impl<R, T: Scalar, U: Clone, const NQ: usize, const NV: usize> Clone for Adaptive<'_, R, T, NQ, NV, U> {
+    fn clone(&self) -> Self {
+        Self { input: self.input.clone(), ..*self }
     }
 }

@@ -35,7 +35,7 @@ use crate::state::{Configuration, State};
 /// }
 /// # Ok(()) }
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Trajectory<'r, R, T, const NQ: usize, const NV: usize> {
     robot: &'r R,
     times: Vec<T>,
@@ -163,6 +163,14 @@ where
             let time = if sound { time } else { start };
             self.at(time).map(|state| Sample { time, state, robot })
         })
+    }
+}
+
+impl<R, T: Scalar, const NQ: usize, const NV: usize> Clone for Trajectory<'_, R, T, NQ, NV> {
+    fn clone(&self) -> Self {
+        let Self { robot, times, states, inputs, segments } = self;
+        let (times, states) = (times.clone(), states.clone());
+        Self { robot, times, states, inputs: inputs.clone(), segments: segments.clone() }
     }
 }
 
