@@ -41,7 +41,6 @@ fn main() -> Result<(), Error> {
     println!("  method                energy, J   angular momentum, kg m^2/s");
     let space = Thrown { g: 0.0 };
     let simulation = Simulation::new(&space, start, 5e-3)?;
-    account("semi-implicit Euler", simulation.clone().with_integrator(SemiImplicitEuler))?;
     account("Runge and Kutta", simulation.clone())?;
     account("variational", simulation.with_integrator(Variational))
 }
