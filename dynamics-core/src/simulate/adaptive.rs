@@ -331,22 +331,18 @@ where
             Some(step) => step,
             None => self.first_step(acceleration, until - clock.time),
         };
-        let mut broken = None;
+        let time = clock.time.into();
+        let mut failure = Error::StepTooSmall { time };
         loop {
-            let step = self.bounded(next, until - clock.time);
-            let Some(step) = step else {
-                return Err(broken.unwrap_or(Error::StepTooSmall { time: clock.time.into() }));
-            };
-            *left = left.checked_sub(1).ok_or(Error::TooManySteps { time: clock.time.into() })?;
+            let step = self.bounded(next, until - clock.time).ok_or(failure)?;
+            *left = left.checked_sub(1).ok_or(Error::TooManySteps { time })?;
             let ends = step == until - clock.time;
             let after = if ends { Clock::at(until) } else { clock.after(step) };
             let start = Start { state: &state, acceleration, times: [clock.time, after.time], step };
             let Attempt { state: reached, acceleration, segment, error } =
                 attempt(self.robot, &start, &self.tolerances, &mut self.input);
             let sound = Error::unless_finite("a", &acceleration).and_then(|()| reached.check());
-            let held = step <= self.steps.least;
-            broken = sound.err();
-            if broken.is_none() && error <= T::one() {
+            if sound.is_ok() && error <= T::one() {
                 let suggested = step * self.controller.accepted(error);
                 // A step that was cut short by its end says little of the next one.
                 self.steps.next = Some(if ends { larger(suggested, next) } else { suggested });
@@ -354,8 +350,9 @@ where
                 self.front = Front { clock: after, state: reached, acceleration, segment: Some(segment) };
                 return Ok(());
             }
-            if held {
-                return Err(broken.unwrap_or(Error::StepTooSmall { time: clock.time.into() }));
+            failure = sound.err().unwrap_or(Error::StepTooSmall { time });
+            if step <= self.steps.least {
+                return Err(failure);
             }
             next = larger(step * self.controller.rejected(error), self.steps.least);
         }
