@@ -11,7 +11,8 @@ pub type StateOf<R, L, const NQ: usize, const NV: usize> =
     for<'m, 'r> fn(&'m Moment<'r, R, L, NQ, NV>) -> State<L, NQ, NV>;
 
 /// As many rollouts as there are lanes: a robot, a state to start from, what drives it, and what is kept of it.
-pub struct Rollout<R, L, const NQ: usize, const NV: usize, U = Unforced<L, NQ, NV>, W = StateOf<R, L, NQ, NV>> {
+pub struct Rollout<R, L, const NQ: usize, const NV: usize, U = Unforced<L, NQ, NV>, W = StateOf<R, L, NQ, NV>>
+{
     pub(super) robot: R,
     pub(super) start: State<L, NQ, NV>,
     pub(super) input: U,
