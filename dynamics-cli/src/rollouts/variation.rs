@@ -305,7 +305,7 @@ mod tests {
         assert_eq!(values("vary", "m = 500g..2", mass), uniform(0.5, 2.0));
         assert_eq!(values("vary", "q.a=-1 .. 1", None), uniform(-1.0, 1.0));
         assert_eq!(values("vary", "m = 0.5..1.5", mass), uniform(0.5, 1.5));
-        let normal = Ok(Values::Drawn(Distribution::Normal, [0.0, std::f64::consts::PI / 6.0]));
+        let normal = Ok(Values::Drawn(Distribution::Normal, [0.0, std::f64::consts::FRAC_PI_6]));
         assert_eq!(values("vary", "q.a = normal(0, 30deg)", Some([0; 3])), normal);
         assert_eq!(
             values("vary", "v.a = 180deg / 2s", Some([0, 0, -1])),
