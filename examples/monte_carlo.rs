@@ -64,18 +64,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut outcomes = vec![(0.0, 0.0); COUNT]; // the mean deviation in rad, the work of the motors in J
     let mut sound = vec![0.0; COUNT];
     let begun = Instant::now();
-    rollouts.par_run((&starts, &payloads, &frictions), &mut outcomes, &mut sound, |(start, payload, friction)| {
-        let step = Native::<f64>::from(STEP);
-        let (mut squares, mut work) = (Native::<f64>::from(0.0), Native::<f64>::from(0.0));
-        let rollout = Rollout::new(Arm { payload, friction }, start).with_input(control);
-        rollout.with_observer(move |now| {
-            let off = now.state.q - path(now.time)[0];
-            let power = control(now.time, &now.state).dot(&now.state.v);
-            squares += off.dot(&off) * step;
-            work += Scalar::sqrt(power * power) * step; // what is put in and what is braked away
-            (Scalar::sqrt(squares / now.time), work)
-        })
-    })?;
+    rollouts.par_run(
+        (&starts, &payloads, &frictions),
+        &mut outcomes,
+        &mut sound,
+        |(start, payload, friction)| {
+            let step = Native::<f64>::from(STEP);
+            let (mut squares, mut work) = (Native::<f64>::from(0.0), Native::<f64>::from(0.0));
+            let rollout = Rollout::new(Arm { payload, friction }, start).with_input(control);
+            rollout.with_observer(move |now| {
+                let off = now.state.q - path(now.time)[0];
+                let power = control(now.time, &now.state).dot(&now.state.v);
+                squares += off.dot(&off) * step;
+                work += Scalar::sqrt(power * power) * step; // what is put in and what is braked away
+                (Scalar::sqrt(squares / now.time), work)
+            })
+        },
+    )?;
     let seconds = begun.elapsed().as_secs_f64();
 
     assert!(sound.iter().all(|time| *time == sound[0]), "an arm left all finite numbers");

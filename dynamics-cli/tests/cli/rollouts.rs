@@ -221,7 +221,7 @@ fn a_rollout_that_is_lost_is_named_and_the_others_are_written() {
     ];
     let complaint = dynamics(&arguments).failed(1);
     assert!(complaint.contains("1 of 3 rollouts did not stay finite: 1 after 0."), "{complaint}");
-    let csv = std::fs::read_to_string(out).unwrap();
+    let csv = std::fs::read_to_string(&out).unwrap();
     let (_, rows) = table(&csv);
     let of = |rollout: f64| rows.iter().filter(|row| row[0] == rollout).count();
     assert!(of(0.0) == 11 && of(2.0) == 11 && (1..11).contains(&of(1.0)), "{csv}");

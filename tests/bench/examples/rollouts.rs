@@ -41,9 +41,11 @@ fn main() {
     for (method, flag) in [("RK4", "rk4"), ("Euler", "euler")] {
         let file = format!("{folder}/{flag}.csv");
         let here = results.entry(method).or_default();
-        for (name, binary) in [("`dynamics rollouts`, any x86-64", generic), ("`dynamics rollouts`", native)] {
+        for (name, binary) in [("`dynamics rollouts`, any x86-64", generic), ("`dynamics rollouts`", native)]
+        {
             for threads in [1, threads] {
-                let rate = (0..TURNS).map(|_| interpreted(binary, urdf, flag, threads, &file)).fold(0.0, f64::max);
+                let rate =
+                    (0..TURNS).map(|_| interpreted(binary, urdf, flag, threads, &file)).fold(0.0, f64::max);
                 here.push(Result { name, threads, rate, ends: Some(read(&file).1) });
             }
         }
@@ -54,7 +56,8 @@ fn main() {
         }
     }
     let threads_text = threads.to_string();
-    let arguments = [script, urdf, &format!("{folder}/rk4.csv"), &STEPS.to_string(), &STEP.to_string(), &threads_text];
+    let arguments =
+        [script, urdf, &format!("{folder}/rk4.csv"), &STEPS.to_string(), &STEP.to_string(), &threads_text];
     mujoco(python, &arguments, &mut results);
     let worst = disagreement(&results);
     print_table(&results, worst, threads);
@@ -73,7 +76,8 @@ fn interpreted(binary: &str, urdf: &str, method: &str, threads: usize, out: &str
     let done = command.output().expect("the binary runs");
     let said = String::from_utf8_lossy(&done.stderr).into_owned();
     assert!(done.status.success(), "{said}");
-    let rate = said.rsplit_once(": ").and_then(|(_, rate)| rate.trim().strip_suffix(" steps/s")?.parse().ok());
+    let rate =
+        said.rsplit_once(": ").and_then(|(_, rate)| rate.trim().strip_suffix(" steps/s")?.parse().ok());
     rate.unwrap_or_else(|| panic!("no rate in {said}"))
 }
 
@@ -85,7 +89,8 @@ fn read(file: &str) -> (Vec<Moving>, Vec<Moving>) {
     let column = |prefix: &str, joint: &str| {
         head.iter().position(|name| *name == format!("{prefix}.{joint}")).expect("a column for each joint")
     };
-    let [q, v] = ["q", "v"].map(|prefix| Iiwa14::JOINT_NAMES.iter().map(|joint| column(prefix, joint)).collect::<Vec<_>>());
+    let [q, v] = ["q", "v"]
+        .map(|prefix| Iiwa14::JOINT_NAMES.iter().map(|joint| column(prefix, joint)).collect::<Vec<_>>());
     let state = |line: &str| {
         let row: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
         State::new(SVector::from_fn(|k, _| row[q[k]]), SVector::from_fn(|k, _| row[v[k]]))
@@ -105,7 +110,12 @@ fn best(mut turn: impl FnMut()) -> f64 {
 }
 
 /// The derived robot: one simulation after another, in lanes, and on all cores.
-fn generated(integrator: impl Integrator + Copy + Sync, starts: &[Moving], threads: usize, results: &mut Vec<Result>) {
+fn generated(
+    integrator: impl Integrator + Copy + Sync,
+    starts: &[Moving],
+    threads: usize,
+    results: &mut Vec<Result>,
+) {
     let mut ends = starts.to_vec();
     let rate = best(|| {
         for (end, start) in ends.iter_mut().zip(starts) {
@@ -136,7 +146,8 @@ fn mujoco(python: &str, arguments: &[&String], results: &mut BTreeMap<&str, Vec<
     let text = String::from_utf8_lossy(&done.stdout).into_owned();
     let lines = || text.lines().map(|line| line.split('\t').collect::<Vec<_>>());
     for (method, results) in results.iter_mut() {
-        let numbers = |words: &[&str]| words.iter().map(|word| word.parse().expect("a number")).collect::<Vec<f64>>();
+        let numbers =
+            |words: &[&str]| words.iter().map(|word| word.parse().expect("a number")).collect::<Vec<f64>>();
         let ends: Vec<Moving> = lines()
             .filter(|words| words[..2] == ["end", *method])
             .map(|words| {
@@ -177,7 +188,13 @@ fn print_table(results: &BTreeMap<&str, Vec<Result>>, worst: f64, threads: usize
     println!("Million steps a second; × is of MuJoCo's on as many threads.\n");
     println!("| | threads | RK4 | × | semi-implicit Euler | × |");
     println!("|---|--:|--:|--:|--:|--:|");
-    let names = ["MuJoCo", "derived, one by one", "derived, in lanes", "`dynamics rollouts`", "`dynamics rollouts`, any x86-64"];
+    let names = [
+        "MuJoCo",
+        "derived, one by one",
+        "derived, in lanes",
+        "`dynamics rollouts`",
+        "`dynamics rollouts`, any x86-64",
+    ];
     for name in names {
         for threads in if threads == 1 { vec![1] } else { vec![1, threads] } {
             let [a, b] = [rk4, euler].map(|results| rate(results, name, threads));
@@ -185,8 +202,16 @@ fn print_table(results: &BTreeMap<&str, Vec<Result>>, worst: f64, threads: usize
                 continue;
             }
             let [of_a, of_b] = [rk4, euler].map(|results| rate(results, "MuJoCo", threads));
-            println!("| {name} | {threads} | {:.3} | {:.1} | {:.3} | {:.1} |", a / 1e6, a / of_a, b / 1e6, b / of_b);
+            println!(
+                "| {name} | {threads} | {:.3} | {:.1} | {:.3} | {:.1} |",
+                a / 1e6,
+                a / of_a,
+                b / 1e6,
+                b / of_b
+            );
         }
     }
-    println!("\n{ROLLOUTS} rollouts of {STEPS} steps of {STEP} s; all ends agree to {worst:.0e} rad and rad/s.");
+    println!(
+        "\n{ROLLOUTS} rollouts of {STEPS} steps of {STEP} s; all ends agree to {worst:.0e} rad and rad/s."
+    );
 }
