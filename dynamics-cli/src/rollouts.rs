@@ -123,6 +123,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         integrator: args.method,
         start: (&start.q, &start.v),
     };
+    let block = bytes_of_block(&plan)?;
     let (of_rollout, of_sample) = names(&robot, &study);
     let mut table = Table::begin(
         format,
@@ -131,7 +132,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         &of_sample,
         &story(args, &input, &robot),
     )?;
-    let losses = roll_out(args, &plan, &mut table)?;
+    let losses = roll_out(args, &plan, block, &mut table)?;
     table.finish()?;
     lost(&losses, study.rollouts)
 }
@@ -210,23 +211,26 @@ const MOST_WAITING: u64 = 1 << 30;
 /// So many blocks for each thread are computed before their rows are written, in order.
 const BLOCKS_A_THREAD: u64 = 4;
 
-/// Computes all rollouts, writes their rows, and returns which were lost, and when each was finite for the last time.
-fn roll_out(args: &Args, plan: &Plan<'_>, table: &mut Table) -> Result<Vec<(u64, f64)>, Failure> {
+/// How many bytes of samples a block of rollouts has, if it is not too many to keep.
+fn bytes_of_block(plan: &Plan<'_>) -> Result<u64, Failure> {
+    let samples = plan.clock.steps / plan.every + 2;
+    let bytes = samples.saturating_mul(8 * plan.engine.width() as u64 * LANES as u64);
+    if bytes <= MOST_WAITING {
+        return Ok(bytes);
+    }
+    let problem = Problem::new(format!("each rollout has {samples} samples, which are too many to keep"));
+    Err(problem.help("give a larger `--every`, or run `dynamics simulate` for each rollout").into())
+}
+
+/// Computes all rollouts in blocks of so many bytes, writes their rows, and returns which were lost, and when each was finite for the last time.
+fn roll_out(args: &Args, plan: &Plan<'_>, block: u64, table: &mut Table) -> Result<Vec<(u64, f64)>, Failure> {
     let threads = args.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(|error| {
         Problem::new(format!("threads cannot be started: {error}"))
             .help("give a smaller number to `--threads`")
     })?;
     let (width, steps, rollouts) = (plan.engine.width(), plan.clock.steps, plan.study.rollouts);
-    let bytes = (steps / plan.every + 2).saturating_mul(8 * width as u64 * LANES as u64);
-    if bytes > MOST_WAITING {
-        let samples = steps / plan.every;
-        let problem = Problem::new(format!("each rollout has {samples} samples, which are too many to keep"));
-        return Err(problem
-            .help("give a larger `--every`, or run `dynamics simulate` for each rollout")
-            .into());
-    }
-    let window = (BLOCKS_A_THREAD * pool.current_num_threads() as u64).min(MOST_WAITING / bytes);
+    let window = (BLOCKS_A_THREAD * pool.current_num_threads() as u64).min(MOST_WAITING / block);
     let blocks = rollouts.div_ceil(LANES as u64);
     let (all, made, begun) = (steps as f64 * rollouts as f64, AtomicU64::new(0), Instant::now());
     let progress = Progress::of_steps("rolling out", all);
@@ -237,7 +241,7 @@ fn roll_out(args: &Args, plan: &Plan<'_>, table: &mut Table) -> Result<Vec<(u64,
     let (is_text, mut losses) = (table.is_text(), vec![]);
     for first in (0..blocks).step_by(window as usize) {
         let here = first..blocks.min(first + window);
-        let block = |k: u64| {
+        let rolled = |k: u64| {
             let rollouts = plan.block(k * LANES as u64, &tick);
             let lost = |rollout: &Rollout| rollout.lost.map(|time| (rollout.index, time));
             let losses: Vec<(u64, f64)> = rollouts.iter().filter_map(lost).collect();
@@ -246,7 +250,7 @@ fn roll_out(args: &Args, plan: &Plan<'_>, table: &mut Table) -> Result<Vec<(u64,
                 losses,
             )
         };
-        let done: Vec<_> = pool.install(|| here.into_par_iter().map(block).collect());
+        let done: Vec<_> = pool.install(|| here.into_par_iter().map(rolled).collect());
         for (rows, of_block) in done {
             table.write(rows)?;
             losses.extend(of_block);

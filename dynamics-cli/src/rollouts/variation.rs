@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use dynamics_codegen::diagnostics::{Diagnostic, Place};
+use dynamics_codegen::diagnostics::{Code, Diagnostic, Place};
 use dynamics_codegen::spec::Formula;
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 
@@ -54,6 +54,11 @@ const FORMS: &str =
     "write a distribution, `uniform(0, 2)`, `normal(1, 0.1)` or `loguniform(0.01, 1)`, or a number";
 const LISTS: &str = "write numbers, `0, 0.5, 1`, or so many at equal distances, `linspace(0, 1, 11)`";
 
+/// What may stand behind the sign.
+fn forms(option: &str) -> &'static str {
+    if option == "vary" { FORMS } else { LISTS }
+}
+
 impl Given {
     /// Reads an option.
     pub(super) fn read(option: &'static str, text: &str) -> Result<Self, Failure> {
@@ -78,7 +83,7 @@ impl Given {
         }
         // With as many columns before it, so that what is wrong is found again.
         let padded: String = " ".repeat(columns) + &text.chars().skip(columns).collect::<String>();
-        let help = if option == "vary" { FORMS } else { LISTS };
+        let help = forms(option);
         let Ok(tokens) = padded.parse::<TokenStream>() else {
             let problem = Problem::new(format!("`--{option}` has a bracket or a quote without its partner"));
             return Err(spotted(problem, option, &text, columns..end).help("close what is opened").into());
@@ -277,7 +282,9 @@ fn problem_of(found: &Diagnostic, option: &'static str, text: &str) -> Problem {
         Place::Text { .. } => None,
     };
     let problem = Problem { code: Some(found.code.to_string()), ..Problem::new(found.message.clone()) };
-    spotted(problem, option, text, range.unwrap_or(0..text.chars().count())).help(found.help_text())
+    let problem = spotted(problem, option, text, range.unwrap_or(0..text.chars().count()));
+    // The catalogue's help is about attributes.
+    problem.help(if found.code == Code::Syntax { forms(option) } else { found.help_text() })
 }
 
 fn spotted(problem: Problem, option: &str, text: &str, characters: Range<usize>) -> Problem {
