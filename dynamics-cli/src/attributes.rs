@@ -80,7 +80,7 @@ impl Given {
 }
 
 /// A word for a shell.
-fn quoted(word: &str) -> String {
+pub(crate) fn quoted(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "_-./=".contains(c);
     if word.chars().all(is_plain) && !word.is_empty() {
         return word.to_owned();

@@ -17,6 +17,7 @@ mod output;
 mod progress;
 mod render;
 mod robot;
+mod rollouts;
 mod simulate;
 mod state;
 mod tree;
@@ -35,6 +36,7 @@ enum Command {
     Count(count::Args),
     Eval(eval::Args),
     Simulate(simulate::Args),
+    Rollouts(rollouts::Args),
     Explain(explain::Args),
 }
 
@@ -44,6 +46,7 @@ Examples:
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs
   dynamics eval arm.urdf --state '{\"q\": [0.1, 0.2], \"v\": [1, 0]}'
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
+  dynamics rollouts arm.urdf --time 5 --step 1e-3 --vary 'q.elbow = uniform(-1, 1)' --count 1000 -o arm.parquet
   dynamics explain MassNegative
 
 FILE may be `-`, for standard input.";
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Command::Count(args) => count::run(&args),
         Command::Eval(args) => eval::run(&args),
         Command::Simulate(args) => simulate::run(&args),
+        Command::Rollouts(args) => rollouts::run(&args),
         Command::Explain(args) => explain::run(&args),
     };
     done.map_or_else(failure::Failure::report, |()| ExitCode::SUCCESS)

@@ -18,13 +18,19 @@ pub(crate) fn writer(path: Option<&Path>, input: &Path) -> Result<Box<dyn Write>
     let Some(path) = path.filter(|path| *path != Path::new("-")) else {
         return Ok(Box::new(BufWriter::new(io::stdout().lock())));
     };
-    let is_input = |path: &Path| path.canonicalize().ok().zip(input.canonicalize().ok());
-    if is_input(path).is_some_and(|(output, input)| output == input) {
-        let problem = Problem::new(format!("{} would be written over: it is the input", name_of(path)));
-        return Err(problem.help("give another file to `-o`").into());
-    }
+    refuse_input(path, input)?;
     let file = File::create(path).map_err(|error| failed(Some(path), &error))?;
     Ok(Box::new(BufWriter::new(file)))
+}
+
+/// Fails if the file that would be written is the one that is read.
+pub(crate) fn refuse_input(path: &Path, input: &Path) -> Result<(), Failure> {
+    let both = path.canonicalize().ok().zip(input.canonicalize().ok());
+    if both.is_none_or(|(output, input)| output != input) {
+        return Ok(());
+    }
+    let problem = Problem::new(format!("{} would be written over: it is the input", name_of(path)));
+    Err(problem.help("give another file to `-o`").into())
 }
 
 /// What it means that something could not be written.

@@ -8,7 +8,7 @@ use dynamics_codegen::passes::{Compiled, Plan};
 use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
-use dynamics_codegen::{checked, read_urdf};
+use dynamics_codegen::{checked, read_urdf_with};
 use proc_macro2::Span;
 
 use crate::coordinates::Coordinates;
@@ -60,16 +60,27 @@ pub(crate) struct State {
 impl<'g> Robot<'g> {
     /// Reads, judges and compiles a file.
     pub(crate) fn of(input: &Input, graph: &'g Graph, wanted: Wanted<'_>) -> Result<Self, Failure> {
+        Self::with_fields(input, graph, wanted, &[])
+    }
+
+    /// [`of`](Self::of), with fields that the options may use. The tree is not of numbers where it depends on them.
+    pub(crate) fn with_fields(
+        input: &Input,
+        graph: &'g Graph,
+        wanted: Wanted<'_>,
+        fields: &[&str],
+    ) -> Result<Self, Failure> {
         let _progress = Progress::of(&format!("compiling {}", input.name));
         let wrong = |found| Failure::mistakes(found, input);
-        let (mut spec, report) = read_urdf(NAME, input.urdf(), &input.attributes.text()).map_err(wrong)?;
+        let (mut spec, report) =
+            read_urdf_with(NAME, fields, input.urdf(), &input.attributes.text()).map_err(wrong)?;
         if let Wanted::Only(methods) = wanted {
             let name =
                 |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
             spec.options.outputs = Some(methods.iter().map(name).collect());
         }
         let (model, compiled) = checked(&spec, graph).map_err(wrong)?;
-        // A file has no parameters.
+        // A file has no parameters; what depends on fields is asked of programs alone.
         let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
         let tree = model.tree.map(|expr| evaluator.value(expr));
         let coordinates = Coordinates::of(&spec, &model);

@@ -67,21 +67,21 @@ Examples:
 /// More steps cannot be counted exactly in doubles, nor waited for.
 const MOST_STEPS: f64 = (1_u64 << 53) as f64;
 
-fn duration(text: &str) -> Result<f64, String> {
+pub(crate) fn duration(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(time) if time.is_finite() && time >= 0.0 => Ok(time),
         _ => Err("give a finite number of seconds that is not negative".to_owned()),
     }
 }
 
-fn step(text: &str) -> Result<f64, String> {
+pub(crate) fn step(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(step) if step.is_finite() && step > 0.0 => Ok(step),
         _ => Err("give a finite number of seconds above zero".to_owned()),
     }
 }
 
-const METHODS: [Method; 4] =
+pub(crate) const METHODS: [Method; 4] =
     [Method::ForwardDynamics, Method::KineticEnergy, Method::PotentialEnergy, Method::ElasticEnergy];
 
 /// Runs the command.
@@ -114,16 +114,16 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// The times of the steps.
-struct Clock {
+pub(crate) struct Clock {
     time: f64,
     step: f64,
-    steps: u64,
+    pub(crate) steps: u64,
     /// Whether all steps are equal.
     divides: bool,
 }
 
 impl Clock {
-    fn of(time: f64, step: f64) -> Result<Self, Failure> {
+    pub(crate) fn of(time: f64, step: f64) -> Result<Self, Failure> {
         let count = time / step;
         if count > MOST_STEPS {
             let problem = Problem::new(format!("{time:?} s in steps of {step:?} s are too many steps"));
@@ -135,7 +135,7 @@ impl Clock {
     }
 
     /// When the step `k` ends: where steps are equal, the double nearest to their part of the time.
-    fn at(&self, k: u64) -> f64 {
+    pub(crate) fn at(&self, k: u64) -> f64 {
         let k = k as f64;
         if self.divides { self.time * k / self.steps as f64 } else { (k * self.step).min(self.time) }
     }
@@ -162,7 +162,7 @@ fn head(robot: &Robot<'_>) -> String {
 }
 
 /// A cell of CSV, RFC 4180.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     if text.contains([',', '"']) { format!("\"{}\"", text.replace('"', "\"\"")) } else { text.to_owned() }
 }
 

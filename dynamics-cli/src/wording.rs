@@ -17,6 +17,10 @@ pub(crate) fn for_the_command_line(text: &str) -> String {
         ("`base = free`", "`--base free`"),
         ("`base`", "`--base`"),
         ("`gravity = [0, 0, -9.81]`", "`--gravity '[0, 0, -9.81]'`"),
+        (
+            "name a field of the struct, or write a number",
+            "write a number, or vary it, by `--vary` of `dynamics rollouts`",
+        ),
         (" beside the file", " on the command line"),
         (" on the struct", " on the command line"),
     ] {

@@ -11,6 +11,8 @@ mod generate;
 mod mistakes;
 #[path = "cli/readme.rs"]
 mod readme;
+#[path = "cli/rollouts.rs"]
+mod rollouts;
 #[path = "cli/simulate.rs"]
 mod simulate;
 
@@ -156,7 +158,7 @@ fn folder(test: &str) -> PathBuf {
 #[test]
 fn the_version_and_the_help_are_printed() {
     assert_eq!(dynamics(&["--version"]).ok(), format!("dynamics {}\n", env!("CARGO_PKG_VERSION")));
-    for command in ["check", "generate", "count", "eval", "simulate", "explain"] {
+    for command in ["check", "generate", "count", "eval", "simulate", "rollouts", "explain"] {
         let help = dynamics(&[command, "--help"]).ok();
         assert!(help.contains(&format!("dynamics {command} ")) && help.contains("Example"), "{help}");
     }

@@ -110,10 +110,30 @@ pub fn generate_with(
 ///
 /// All mistakes in the attributes, or in the file.
 pub fn read_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<(RobotSpec, Report), Diagnostics> {
+    read_urdf_with(name, &[], urdf, attributes)
+}
+
+/// [`read_urdf`] for a struct with these fields, which the attributes may use.
+///
+/// # Errors
+///
+/// All mistakes in names and attributes, or in the file.
+pub fn read_urdf_with(
+    name: &str,
+    fields: &[&str],
+    urdf: Urdf<'_>,
+    attributes: &str,
+) -> Result<(RobotSpec, Report), Diagnostics> {
     let mut diags = Diagnostics::new();
     let (ident, attributes) = (diags.keep(identifier(name)), diags.keep(attributes_of(attributes)));
+    let idents: Vec<_> = fields.iter().filter_map(|field| diags.keep(identifier(field))).collect();
+    diags.check()?;
     let (Some(ident), Some(attributes)) = (ident, attributes) else { return Err(diags) };
-    let mut spec = spec::parse(&syn::parse_quote!(#(#attributes)* pub struct #ident;), &mut diags);
+    let input = match idents.as_slice() {
+        [] => syn::parse_quote!(#(#attributes)* pub struct #ident;),
+        fields => syn::parse_quote!(#(#attributes)* pub struct #ident<T> { #(pub #fields: T),* }),
+    };
+    let mut spec = spec::parse(&input, &mut diags);
     if let Some(path) = &spec.options.urdf {
         diags.error(Code::KeysConflict, &path.place, "the file is given already");
     }

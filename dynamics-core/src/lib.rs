@@ -58,6 +58,8 @@ pub mod linearize;
 pub mod mechanism;
 mod product;
 pub mod regressor;
+#[cfg(feature = "simd")]
+pub mod rollout;
 pub mod scalar;
 pub mod simulate;
 #[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
@@ -98,6 +100,7 @@ pub mod prelude {
     pub use crate::{
         batch,
         lanes::{f32x8, f32x16, f64x4, f64x8},
+        rollout::{Rollout, Rollouts},
     };
     pub use nalgebra::{SMatrix, SVector};
 }

@@ -1,8 +1,10 @@
 //! "Did you mean": the known name closest to one that is not.
 
-/// The closest of the `known` names, if it is close enough to be a slip: the first one of the fewest edits.
+/// The closest of the `known` names, if it is close enough to be a slip: the first one of the fewest edits. One letter is
+/// no slip of another.
 pub fn did_you_mean<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let allowed = (name.chars().count() / 3).max(1);
+    let length = name.chars().count();
+    let allowed = (length / 3).max(1).min(length.saturating_sub(1));
     let close = known.into_iter().map(|candidate| (distance(name, candidate), candidate));
     let (_, best) = close.filter(|(edits, _)| *edits <= allowed).min_by_key(|(edits, _)| *edits)?;
     Some(best)
@@ -42,5 +44,7 @@ mod tests {
         assert_eq!(did_you_mean("Column", ["column"]), Some("column"));
         assert_eq!(did_you_mean("colour", ["mass", "inertia"]), None);
         assert_eq!(did_you_mean("", ["mass"]), None);
+        assert_eq!(did_you_mean("c", ["m", "C"]), Some("C"));
+        assert_eq!(did_you_mean("c", ["m", "cm"]), None);
     }
 }

@@ -81,6 +81,7 @@ pub(super) fn parameters(values: &Values, units: &Units, slots: &[Slot]) -> Vec<
             symbol: SymbolId(u32::try_from(k).unwrap_or(u32::MAX)),
             sample: sample(k, unit, products[field]),
             unit: unit.map(unit_of),
+            exponents: unit,
         }
     };
     values.used().enumerate().map(parameter).collect()

@@ -23,7 +23,7 @@ pub use tree::{Drive, Frame, Link, Motion, Passive, Tree};
 
 use std::ops::Range;
 
-use crate::symbolic::{Expr, SymbolId};
+use crate::symbolic::{Expr, Number, SymbolId};
 
 /// A field of the robot's struct that the equations depend on.
 #[derive(Clone, Debug)]
@@ -36,6 +36,8 @@ pub struct Parameter {
     pub sample: f64,
     /// Its unit as its uses tell it, as `kg·m²`; `1` of angles and plain numbers; nothing if they do not tell.
     pub unit: Option<String>,
+    /// The exponents of kg, m and s in it.
+    pub exponents: Option<[Number; 3]>,
 }
 
 /// The type of the fields that the equations use.

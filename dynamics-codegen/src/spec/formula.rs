@@ -1,6 +1,6 @@
 //! Arithmetic as written: numbers with units, fields, sums, products and functions.
 
-use proc_macro2::{Delimiter, Literal};
+use proc_macro2::{Delimiter, Literal, Span, TokenStream};
 
 use super::cursor::{Cursor, Result};
 use super::{Name, Unit};
@@ -63,6 +63,15 @@ pub enum Function {
 }
 
 impl Formula {
+    /// Reads tokens that are a formula and nothing else; `around` is the place of the whole if there are none.
+    ///
+    /// # Errors
+    ///
+    /// The first mistake in it.
+    pub fn read(tokens: TokenStream, around: Span) -> std::result::Result<Self, Diagnostic> {
+        Self::parse(Cursor::new(tokens, around))
+    }
+
     /// Reads all of the cursor.
     pub(super) fn parse(mut input: Cursor) -> Result<Self> {
         let formula = Self::sum(&mut input)?;
