@@ -49,6 +49,7 @@ pub mod __private;
 #[cfg(feature = "simd")]
 pub mod batch;
 pub mod centroidal;
+pub mod control;
 pub mod dynamics;
 pub mod error;
 pub mod kinematics;
@@ -56,6 +57,7 @@ pub mod kinematics;
 pub mod lanes;
 pub mod linearize;
 pub mod mechanism;
+pub mod output;
 mod product;
 pub mod regressor;
 pub mod scalar;
@@ -63,7 +65,9 @@ pub mod simulate;
 #[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
 mod square_root;
 pub mod state;
+pub mod state_space;
 pub mod trigonometry;
+pub mod trim;
 
 pub use nalgebra;
 
@@ -77,19 +81,24 @@ pub use dynamics::{
 pub use error::Error;
 pub use kinematics::{Frame, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
-pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
+pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Motion};
 pub use regressor::{BaseRegressor, Regressor};
 pub use scalar::Scalar;
 pub use simulate::{Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation};
 pub use state::{Configuration, State};
+pub use state_space::{Signal, StateSpace};
+pub use trim::{Trim, TrimFailure, Trimmed};
 
 /// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
 pub mod prelude {
+    pub use crate::control::{self, Reference};
+    pub use crate::output::{self, Output, Triple as _};
     pub use crate::{
         BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy,
         EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator,
-        InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose, Regressor, Rk4,
-        Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel,
+        InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Motion, Pose,
+        Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Signal, Simulation, State, StateSpace,
+        StateSpaceModel, Trim,
     };
     #[cfg(feature = "simd")]
     pub use crate::{
