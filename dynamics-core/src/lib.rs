@@ -55,6 +55,7 @@ pub mod error;
 pub mod kinematics;
 #[cfg(feature = "simd")]
 pub mod lanes;
+pub mod linear;
 pub mod linearize;
 pub mod mechanism;
 pub mod output;
