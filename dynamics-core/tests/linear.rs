@@ -180,34 +180,36 @@ fn nasty<const R: usize, const C: usize>(seed: &mut u64, kinds: usize) -> SMatri
     })
 }
 
+fn finite(mut found: impl Iterator<Item = f64>) {
+    assert!(found.all(f64::is_finite));
+}
+
 /// Everything, on one set of matrices: it returns, and what it returns is finite or an error.
 fn returns<const N: usize, const M: usize>(seed: &mut u64, kinds: usize) {
     let (a, b) = (nasty::<N, N>(seed, kinds), nasty::<N, M>(seed, kinds));
-    let finite = |found: &mut dyn Iterator<Item = f64>| assert!(found.all(f64::is_finite), "{a} {b}");
     let (q, r) = (nasty::<N, N>(seed, kinds), nasty::<M, M>(seed, kinds));
     let column = nasty::<N, 1>(seed, kinds);
     let definite = Weights::diagonal([1.0; N], [0.1; M]);
     let square = Weights::new((q + q.transpose()) * 0.5, (r + r.transpose()) * 0.5);
     if let Ok(found) = poles(&a) {
-        finite(&mut found.iter().map(|pole| pole.re + pole.im));
-        let mut pairs = *found.as_ref();
-        pairs.iter_mut().for_each(|pole| *pole = Complex::new(-1.0, 0.0));
-        if let Ok(placed) = place_poles(&a, &column, &pairs) {
-            finite(&mut placed.gain.iter().copied());
+        finite(found.iter().map(|pole| pole.re + pole.im));
+        let desired = core::array::from_fn(|k| Complex::new(-1.0 - k as f64, 0.0));
+        if let Ok(placed) = place_poles(&a, &column, &desired) {
+            finite(placed.gain.iter().copied());
         }
     }
     if let Ok((phi, gamma)) = zero_order_hold(&a, &b, 0.1) {
-        finite(&mut phi.iter().chain(gamma.iter()).copied());
+        finite(phi.iter().chain(gamma.iter()).copied());
     }
     let _ = (controllability(&a, &b), observability(&a, &b.transpose()));
     for time in [Time::Continuous, Time::Discrete] {
         let _ = stability(time, &a);
         for weights in [definite, square] {
             if let Ok(found) = lqr(time, &a, &b, &weights) {
-                finite(&mut found.gain.iter().chain(found.cost.iter()).copied());
+                finite(found.gain.iter().chain(found.cost.iter()).copied());
             }
             if let Ok(found) = kalman(time, &a, &b.transpose(), &weights) {
-                finite(&mut found.gain.iter().copied());
+                finite(found.gain.iter().copied());
             }
             let _ = quadratic_cost(time, &a, &b, &weights, &SMatrix::zeros());
         }
@@ -215,8 +217,8 @@ fn returns<const N: usize, const M: usize>(seed: &mut u64, kinds: usize) {
     let model = StateSpace::from_matrices(a, b, b.transpose(), r);
     for hold in HOLDS {
         if let Ok(sampled) = model.discretize(hold, 0.1) {
-            finite(&mut sampled.a.iter().chain(sampled.b.iter()).copied());
-            let _ = sampled.to_continuous(hold).map(|model| finite(&mut model.a.iter().copied()));
+            finite(sampled.a.iter().chain(sampled.b.iter()).copied());
+            let _ = sampled.to_continuous(hold).map(|model| finite(model.a.iter().copied()));
         }
     }
 }

@@ -30,9 +30,9 @@ struct Acrobot;
 /// The feedback of the linear model brings the robot itself upright, in continuous time and held for 20 ms.
 #[test]
 fn a_cart_pole_is_balanced() {
-    let zero = SVector::zeros();
+    let zero = SVector::<f64, 2>::zeros();
     let Linearization { a, b, drift } = CartPole.linearize(&zero, &zero, &SVector::zeros());
-    assert_eq!(drift, SVector::zeros());
+    assert_eq!(drift, SVector::<f64, 4>::zeros());
     let found = stability(Time::Continuous, &a).expect("it converges");
     assert_eq!(found.verdict, Verdict::Unstable);
     assert!(controllability(&a, &b).expect("it converges").is_complete());
@@ -46,13 +46,14 @@ fn a_cart_pole_is_balanced() {
         assert_eq!(stability(time, &closed).map(|found| found.verdict), Ok(Verdict::Stable));
         assert_eq!(poles.len(), 4);
         let held = if time == Time::Discrete { 20 } else { 1 };
-        let mut u = SVector::zeros();
+        let input_map: SMatrix<f64, 2, 1> = CartPole.input_map();
+        let mut u = SVector::<f64, 1>::zeros();
         let mut state = State { q: SVector::from([0.2, 0.4]), v: SVector::zeros() };
         for k in 0..10_000 {
             if k % held == 0 {
                 u = -gain * SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
             }
-            state = Rk4.step(&CartPole, 0.0, &state, 1e-3, |_, _| CartPole.input_map() * u);
+            state = Rk4.step(&CartPole, 0.0, &state, 1e-3, |_, _| input_map * u);
         }
         assert!(state.q.norm() < 1e-3 && state.v.norm() < 1e-3, "{time:?}: {state:?}");
     }
@@ -67,7 +68,8 @@ fn an_acrobot_is_controllable_where_it_cannot_stay() {
     let balanced = lqr(Time::Continuous, &a, &b, &Weights::diagonal([10.0, 10.0, 1.0, 1.0], [1.0]));
     assert!(balanced.expect("it is stabilisable").poles.iter().all(|pole| pole.re < 0.0));
     // Hanging, nothing brakes it.
-    let Linearization { a, .. } = Acrobot.linearize(&SVector::zeros(), &SVector::zeros(), &SVector::zeros());
+    let hanging = SVector::<f64, 2>::zeros();
+    let Linearization { a, .. } = Acrobot.linearize(&hanging, &hanging, &SVector::zeros());
     assert_eq!(stability(Time::Continuous, &a).map(|found| found.verdict), Ok(Verdict::Marginal));
 }
 

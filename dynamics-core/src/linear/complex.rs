@@ -37,7 +37,7 @@ pub(crate) fn quotient<T: Real>(z: Complex<T>, w: Complex<T>) -> Complex<T> {
 pub(crate) fn square_root<T: Real>(z: Complex<T>) -> Complex<T> {
     let half = T::of(0.5);
     let large = ((modulus(z) + z.re.abs()) * half).sqrt();
-    if !(large > T::zero()) {
+    if large == T::zero() || !large.is_finite() {
         return z;
     }
     let small = z.im * half / large;

@@ -31,7 +31,7 @@ pub struct Kalman<T, const NX: usize, const NY: usize> {
 ///
 /// W is the covariance of `w` and V that of `v`; of white noise in continuous time these are intensities, per second.
 /// `noise` has W as Q, V as R, and what both have in common as N. The covariance solves the Riccati equation of
-/// [`lqr`](super::lqr) with `(Aᵀ, Cᵀ, W, V)`.
+/// [`lqr`](fn@super::lqr) with `(Aᵀ, Cᵀ, W, V)`.
 ///
 /// # Errors
 ///

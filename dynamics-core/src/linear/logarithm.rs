@@ -50,7 +50,7 @@ pub(crate) fn logarithm<T: Real, const N: usize>(
         series = multiplied(&series, &square);
         let term = real(T::of(1.0 / (2 * k + 1) as f64));
         for i in 0..N {
-            series[(i, i)] = series[(i, i)] + term;
+            series[(i, i)] += term;
         }
     }
     let triangle = multiplied(&ratio, &series);

@@ -76,21 +76,21 @@ impl<T: Real, const NX: usize, const NU: usize, const NY: usize> StateSpace<T, N
         observability(&self.a, &self.c)
     }
 
-    /// The feedback `u = −K·x` of least cost, per second or per step. See [`lqr`](super::lqr).
+    /// The feedback `u = −K·x` of least cost, per second or per step. See [`lqr`](fn@super::lqr).
     ///
     /// # Errors
     ///
-    /// Those of [`lqr`](super::lqr).
+    /// Those of [`lqr`](fn@super::lqr).
     pub fn lqr(&self, weights: &Weights<T, NX, NU>) -> Result<Lqr<T, NX, NU>, LinearError> {
         lqr(self.time(), &self.a, &self.b, weights)
     }
 
     /// The gains of the steady Kalman filter for noises of the states and of the outputs. See
-    /// [`kalman`](super::kalman); [`Observer`](super::Observer) runs it.
+    /// [`kalman`](fn@super::kalman); [`Observer`](super::Observer) runs it.
     ///
     /// # Errors
     ///
-    /// Those of [`kalman`](super::kalman).
+    /// Those of [`kalman`](fn@super::kalman).
     pub fn kalman(&self, noise: &Weights<T, NX, NY>) -> Result<Kalman<T, NX, NY>, LinearError> {
         kalman(self.time(), &self.a, &self.c, noise)
     }

@@ -162,7 +162,7 @@ impl<T: Real, const N: usize> Deflation<T, N> {
     fn fix(&mut self, start: usize, pole: Complex<T>) {
         let h = &mut self.h;
         for i in start..N {
-            h[(i, i)] = h[(i, i)] - pole;
+            h[(i, i)] -= pole;
         }
         for k in (start..N - 1).rev() {
             let (x, y) = (h[(k + 1, k)], h[(k + 1, k + 1)]);
@@ -186,10 +186,10 @@ impl<T: Real, const N: usize> Deflation<T, N> {
             }
         }
         if start + 1 < N {
-            self.entry = self.entry * self.rotations[start][start].0;
+            self.entry *= self.rotations[start][start].0;
         }
         for i in start..N {
-            h[(i, i)] = h[(i, i)] + pole;
+            h[(i, i)] += pole;
         }
     }
 }

@@ -132,7 +132,11 @@ pub fn stability<T: Real, const N: usize>(
         return Ok(stability);
     }
     stability.pole = poles[0];
-    for pole in poles.iter().filter(|pole| pole.im >= T::zero()) {
+    let equal = rounding::<T, N>() * norm(&a);
+    for (k, pole) in poles.iter().enumerate() {
+        if is_known(*pole, poles.iter().take(k), equal) {
+            continue;
+        }
         let (verdict, margin) = judge(time, &a, *pole);
         match (verdict, stability.verdict) {
             (Verdict::Unstable, _) | (Verdict::Marginal, Verdict::Stable) => stability.verdict = verdict,
@@ -143,6 +147,15 @@ pub fn stability<T: Real, const N: usize>(
         }
     }
     Ok(stability)
+}
+
+/// Whether a question of a pole has been answered already: for one that is as good as equal, or for its conjugate.
+pub(crate) fn is_known<'a, T: Real>(
+    pole: Complex<T>,
+    mut answered: impl Iterator<Item = &'a Complex<T>>,
+    equal: T,
+) -> bool {
+    pole.im < T::zero() || answered.any(|other| modulus(*other - pole) <= equal)
 }
 
 /// Whether the mode of a pole of a balanced matrix decays, and how far the nearest boundary is, relative to the norm.

@@ -5,10 +5,10 @@ use core::ops::Range;
 use nalgebra::{Complex, SMatrix, SVector};
 
 use super::balance::{balanced, without_rounding};
-use super::complex::real;
+use super::complex::{modulus, real};
 use super::error::LinearError;
 use super::matrix::{norm, rounding};
-use super::poles::{Time, Verdict, judge};
+use super::poles::{Time, Verdict, is_known, judge};
 use super::real::Real;
 use super::reflector::Reflector;
 use super::schur::Schur;
@@ -133,8 +133,11 @@ pub(crate) fn reach<T: Real, const N: usize, const M: usize>(
     let eigenvalues = Schur::new("A", &a)?.eigenvalues();
 
     let (mut distance, mut weakest) = (T::one(), real(T::zero()));
-    let candidates = eigenvalues.iter().chain(of_cut.iter().skip(staircase.narrowest));
-    for pole in candidates.filter(|pole| pole.im >= T::zero()) {
+    let candidates = || eigenvalues.iter().chain(of_cut.iter().skip(staircase.narrowest));
+    for (k, pole) in candidates().enumerate() {
+        if is_known(*pole, candidates().take(k), T::EPSILON) {
+            continue;
+        }
         let found = smallest_singular_value(&a, &b, *pole);
         if found < distance {
             (distance, weakest) = (found, *pole);
@@ -157,15 +160,22 @@ pub(crate) fn reach<T: Real, const N: usize, const M: usize>(
             *pole = if k == 0 { weakest.conj() } else { weakest };
         }
     }
-    for (k, pole) in reach.poles.iter_mut().enumerate() {
-        *pole *= real(size);
-        if k >= reach.dimension {
-            reach.verdicts[k] = [
-                judge(Time::Continuous, &padded(&lost, staircase.dimension, -T::one()), *pole / real(size)).0,
-                judge(Time::Discrete, &(padded(&lost, staircase.dimension, T::zero()) * size), *pole).0,
-            ];
-        }
+    let continuous = padded(&lost, staircase.dimension, -T::one());
+    let discrete = padded(&lost, staircase.dimension, T::zero()) * size;
+    for k in reach.dimension..N {
+        let pole = reach.poles[k];
+        let equal = |other: &usize| {
+            modulus(reach.poles[*other] - pole) <= T::EPSILON || reach.poles[*other] == pole.conj()
+        };
+        reach.verdicts[k] = match (reach.dimension..k).find(equal) {
+            Some(other) => reach.verdicts[other],
+            None => [
+                judge(Time::Continuous, &continuous, pole).0,
+                judge(Time::Discrete, &discrete, pole * real(size)).0,
+            ],
+        };
     }
+    reach.poles.iter_mut().for_each(|pole| *pole *= real(size));
     Ok(reach)
 }
 
@@ -239,7 +249,7 @@ impl<T: Real, const N: usize, const M: usize> Staircase<T, N, M> {
             if count == 0 {
                 height = length;
             }
-            if !(length > rounding::<T, N>() * size) || start >= N {
+            if length <= rounding::<T, N>() * size || start >= N {
                 break;
             }
             let reflector = Reflector::annihilating(&chosen, start..N);

@@ -210,7 +210,7 @@ impl<T: Real, const N: usize> Riccati<T, N> {
             let Some(Evaluation { remainder, closed_loop, residual }) = self.evaluated(&p) else { break };
             let Ok((step, slowest)) = lyapunov(self.time, &closed_loop, &remainder) else { break };
             let boundary = if self.time == Time::Continuous { T::zero() } else { T::one() };
-            if !(slowest < boundary) {
+            if slowest >= boundary || !slowest.is_finite() {
                 break;
             }
             let before = best.as_ref().map_or(T::one() / T::zero(), |best| best.residual);

@@ -70,7 +70,7 @@ impl<T: Real, const N: usize, const M: usize> Rows<T, N, M> {
         let inner = left.chain(right).fold(real(T::zero()), |sum, term| sum + term);
         let (first, second, size) = (self.square(p), self.square(q), modulus(inner));
         let negligible = T::of((N + M) as f64) * T::EPSILON * first.sqrt() * second.sqrt();
-        if !(size > negligible) {
+        if size <= negligible || !size.is_finite() {
             return false;
         }
         let phase = Complex::new(inner.re / size, inner.im / size);

@@ -110,7 +110,7 @@ fn rotate<T: Real, const N: usize>(a: &mut SMatrix<T, N, N>, p: usize, q: usize)
 /// The tangent of the smaller angle that makes `[first off; off second]` diagonal.
 pub(crate) fn jacobi_tangent<T: Real>(first: T, second: T, off: T) -> T {
     let cotangent = (second - first) / (off + off); // of twice the angle
-    if !(cotangent.abs() < T::one() / T::EPSILON) {
+    if cotangent.abs() >= T::one() / T::EPSILON {
         return T::of(0.5) / cotangent;
     }
     let root = cotangent.mul_add(cotangent, T::one()).sqrt();
