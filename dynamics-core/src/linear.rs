@@ -19,8 +19,9 @@
 //! # Decisions
 //!
 //! What is asked as yes or no (a rank, the side of the imaginary axis) is answered for the data as they are known: a
-//! matrix that differs by `10·N·ε` of its norm, in balanced units of the states, is the same matrix. Every decision comes
-//! with the distance on which it rests, and every gain with the residual of the equation that it solves.
+//! matrix that differs by `10·N·ε` of its norm is the same matrix, with the states in the units that they have, or in
+//! those that the weights of a cost give them. Every decision comes with the distance on which it rests, and every gain
+//! with the residual of the equation that it solves.
 //!
 //! # Errors
 //!

@@ -180,6 +180,7 @@ fn nasty<const R: usize, const C: usize>(seed: &mut u64, kinds: usize) -> SMatri
     })
 }
 
+#[track_caller]
 fn finite(mut found: impl Iterator<Item = f64>) {
     assert!(found.all(f64::is_finite));
 }
@@ -192,7 +193,7 @@ fn returns<const N: usize, const M: usize>(seed: &mut u64, kinds: usize) {
     let definite = Weights::diagonal([1.0; N], [0.1; M]);
     let square = Weights::new((q + q.transpose()) * 0.5, (r + r.transpose()) * 0.5);
     if let Ok(found) = poles(&a) {
-        finite(found.iter().map(|pole| pole.re + pole.im));
+        finite(found.iter().flat_map(|pole| [pole.re, pole.im]));
         let desired = core::array::from_fn(|k| Complex::new(-1.0 - k as f64, 0.0));
         if let Ok(placed) = place_poles(&a, &column, &desired) {
             finite(placed.gain.iter().copied());

@@ -87,7 +87,9 @@ fn poles_of_an_arm_are_exponentials_when_sampled() {
     for pole in poles(&a).expect("it converges").iter() {
         let image: Complex<f64> = (pole * step).exp();
         let distance = sampled.iter().map(|found| (found - image).norm()).fold(f64::MAX, f64::min);
-        assert!(distance < 1e-12, "{pole}: {distance:e}"); // some ε of 1, times N
+        // The first joint turns about the vertical: a double pole at zero, of which half of the digits are known.
+        let tolerance = if pole.norm() < 1e-3 { 1e-7 } else { 1e-12 };
+        assert!(distance < tolerance, "{pole}: {distance:e}");
     }
     assert!(controllability(&a, &b).expect("it converges").is_complete());
     let held =

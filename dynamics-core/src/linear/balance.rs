@@ -2,7 +2,6 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::matrix::rounding;
 use super::real::Real;
 
 /// Passes over all states; each state settles in two or three.
@@ -36,16 +35,6 @@ pub(crate) fn balanced<T: Real, const N: usize>(a: &SMatrix<T, N, N>) -> (SMatri
         }
     }
     (a, scales)
-}
-
-/// A without the entries that are rounding errors beside the largest of their row.
-///
-/// A sum of terms that cancel leaves some ε of them. Balancing would take that for a coupling in small units, and blow
-/// it up until a mode that is none of the model's seems certain.
-pub(crate) fn without_rounding<T: Real, const N: usize>(a: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
-    let largest = |i: usize| (0..N).fold(T::zero(), |largest, j| largest.max(a[(i, j)].abs()));
-    let bounds: [T; N] = core::array::from_fn(|i| rounding::<T, N>() * largest(i));
-    SMatrix::from_fn(|i, j| if a[(i, j)].abs() <= bounds[i] { T::zero() } else { a[(i, j)] })
 }
 
 /// `D⁻¹·A·D` for a D that differs from 1 in one entry.

@@ -45,7 +45,7 @@ impl<T: Real> Hold<T> {
 ///
 /// # Errors
 ///
-/// [`LinearError::NotFinite`]; [`LinearError::Step`] if `h` is not positive, or too long for numbers.
+/// [`LinearError::NotFinite`], of Γ if it overflows; [`LinearError::Step`] if `h` is not positive, or too long for numbers.
 ///
 /// # Cost
 ///
@@ -74,7 +74,9 @@ pub fn zero_order_hold<T: Real, const NX: usize, const NU: usize>(
 ) -> Result<(SMatrix<T, NX, NX>, SMatrix<T, NX, NU>), LinearError> {
     LinearError::unless_finite("B", b)?;
     let Exponential { phi_0, phi_1, .. } = exponential(a, step)?;
-    Ok((phi_0, product(&phi_1, b) * step))
+    let gamma = product(&phi_1, b) * step;
+    LinearError::unless_finite("Γ", &gamma)?;
+    Ok((phi_0, gamma))
 }
 
 /// The exponential of a finite matrix over a positive step.

@@ -248,3 +248,35 @@ impl fmt::Display for LinearError {
 }
 
 impl core::error::Error for LinearError {}
+
+#[cfg(test)]
+mod tests {
+    use std::string::ToString;
+
+    use super::*;
+
+    #[test]
+    fn messages_state_the_fact_and_the_remedy() {
+        let message = |error: LinearError| error.to_string();
+        let not_finite = LinearError::NotFinite { matrix: "A", row: 2, column: 0 };
+        assert_eq!(message(not_finite), "A[(2, 0)] is not finite");
+        assert_eq!(
+            message(LinearError::FreeMode { pole: (0.0, -2.0) }),
+            "the mode of the pole 0.0000e0 - 2.0000e0i neither grows nor decays, and costs nothing; give it a weight in Q"
+        );
+        assert_eq!(
+            message(LinearError::PoleWithoutConjugate { pole: (-1.0, 2.0) }),
+            "the pole -1.0000e0 + 2.0000e0i is desired without -1.0000e0 - 2.0000e0i; give complex poles in conjugate \
+             pairs"
+        );
+        assert_eq!(
+            message(LinearError::NotPositiveDefinite { matrix: "R", eigenvalue: -3.0 }),
+            "R has the eigenvalue -3.0000e0, and all must be positive; give each of its inputs or outputs a weight or a \
+             noise"
+        );
+        assert_eq!(
+            message(LinearError::PoleAtTwiceRate { step: 0.5 }),
+            "a pole is at 2/h of the step h = 0.5 s; choose a shorter step"
+        );
+    }
+}

@@ -76,6 +76,7 @@ pub fn kalman<T: Real, const NX: usize, const NY: usize>(
             factor.solve(&seen).transpose()
         }
     };
+    LinearError::unless_finite("the correction", &correction)?;
     Ok(Kalman {
         gain: dual.gain.transpose(),
         correction,

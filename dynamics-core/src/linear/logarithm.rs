@@ -2,6 +2,7 @@
 
 use nalgebra::{Complex, SMatrix};
 
+use super::balance::balanced;
 use super::complex::{modulus, quotient, real, square_root};
 use super::error::{LinearError, parts};
 use super::lyapunov::multiplied;
@@ -28,7 +29,8 @@ const TERMS: usize = 10;
 pub(crate) fn logarithm<T: Real, const N: usize>(
     a: &SMatrix<T, N, N>,
 ) -> Result<SMatrix<T, N, N>, LinearError> {
-    let ComplexSchur { triangle: mut t, basis } = Schur::new("A", a)?.to_complex();
+    let (balanced, scales) = balanced(a);
+    let ComplexSchur { triangle: mut t, basis } = Schur::new("A", &balanced)?.to_complex();
     for i in 0..N {
         let pole = t[(i, i)];
         if pole.re <= T::zero() && pole.im.abs() <= T::EPSILON * pole.re.abs() {
@@ -55,7 +57,7 @@ pub(crate) fn logarithm<T: Real, const N: usize>(
     }
     let triangle = multiplied(&ratio, &series);
     let back = multiplied(&basis, &multiplied(&triangle, &basis.map(|entry| entry.conj()).transpose()));
-    Ok(back.map(|entry| entry.re * factor))
+    Ok(SMatrix::from_fn(|i, j| back[(i, j)].re * factor * (scales[i] / scales[j])))
 }
 
 /// The largest sum of magnitudes of a column of `T − 1`.

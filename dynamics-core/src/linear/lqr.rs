@@ -155,15 +155,19 @@ pub(crate) fn solve<T: Real, const NX: usize, const NU: usize>(
     let drift = a - product(b, &first);
     let q = symmetric_part(&(q - product(n, &first)));
     semidefinite(names.q, &q)?;
-    if let Some(pole) = reach(a, b)?.missing_and_lasting(time) {
-        return Err(Problem::Unreached(pole));
-    }
-    if let Some(pole) = reach(&drift.transpose(), &root_like(&q))?.missing_and_marginal(time) {
-        return Err(Problem::Free(pole));
-    }
     let half = factor.solve_lower(&b.transpose());
     let g = product(&half.transpose(), &half);
-    let solution = Riccati { time, a: drift, g, q }.solve()?;
+    let riccati = Riccati { time, a: drift, g, q };
+    // In units of the states in which neither weights nor reach are large without need, and time is as it was.
+    let (balanced, scales) = riccati.balanced();
+    let inputs = SMatrix::<T, NX, NU>::from_fn(|i, j| half[(j, i)] / scales[i]);
+    if let Some(pole) = reach(&balanced.a, &inputs)?.missing_and_lasting(time) {
+        return Err(Problem::Unreached(pole));
+    }
+    if let Some(pole) = reach(&balanced.a.transpose(), &root_like(&balanced.q))?.missing_and_marginal(time) {
+        return Err(Problem::Free(pole));
+    }
+    let solution = riccati.solve()?;
     let (p, carried) = (solution.p, product(&b.transpose(), &solution.p));
     let gain = match time {
         Time::Continuous => factor.solve(&(carried + n.transpose())),
@@ -173,6 +177,7 @@ pub(crate) fn solve<T: Real, const NX: usize, const NU: usize>(
             factor.solve(&(product(&carried, a) + n.transpose()))
         }
     };
+    LinearError::unless_finite("K", &gain)?;
     let poles = sorted_poles(time, &(a - product(b, &gain)))?;
     Ok(Lqr { gain, cost: p, poles, residual: solution.residual })
 }

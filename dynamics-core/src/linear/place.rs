@@ -67,12 +67,11 @@ pub fn place_poles<T: Real, const N: usize>(
     LinearError::unless_finite("A", a)?;
     LinearError::unless_finite("b", b)?;
     let desired = paired(desired)?;
-    let found = reach(a, b)?;
-    if let Some(pole) = found.missing().first() {
-        return Err(LinearError::NotControllable { pole: parts(*pole) });
-    }
     let (balanced_a, scales) = balanced(a);
     let balanced_b = SVector::<T, N>::from_fn(|i, _| b[i] / scales[i]);
+    if let Some(pole) = reach(&balanced_a, &balanced_b)?.missing().first() {
+        return Err(LinearError::NotControllable { pole: parts(*pole) });
+    }
     let staircase = Staircase::new(&balanced_a, &balanced_b);
     let hessenberg = SMatrix::from_fn(|i, j| if i > j + 1 { T::zero() } else { staircase.a[(i, j)] });
     let entry = staircase.b.iter().next().copied().unwrap_or_else(T::one);

@@ -4,8 +4,8 @@ use core::fmt;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
-use super::balance::{balanced, without_rounding};
-use super::complex::{logarithm, modulus};
+use super::balance::balanced;
+use super::complex::{logarithm, modulus, real};
 use super::error::LinearError;
 use super::matrix::{norm, rounding};
 use super::real::Real;
@@ -40,8 +40,8 @@ pub struct Stability<T> {
     pub verdict: Verdict,
     /// The pole furthest to the right, or from the origin of discrete time.
     pub pole: Complex<T>,
-    /// How much A has to change, relative to its norm, for a pole to be on the boundary: at most. It was looked for at
-    /// the places of the boundary next to the poles, with the states in balanced units.
+    /// How much A has to change, relative to its norm, for a pole to be on the boundary: at most. It was looked for on the
+    /// straight ways from the poles to the boundary.
     pub margin: T,
 }
 
@@ -81,6 +81,9 @@ pub(crate) fn sorted_poles<T: Real, const N: usize>(
 ) -> Result<SVector<Complex<T>, N>, LinearError> {
     LinearError::unless_finite("A", a)?;
     let mut poles = Schur::new("A", &balanced(a).0)?.eigenvalues();
+    if !poles.iter().all(|pole| pole.re.is_finite() && pole.im.is_finite()) {
+        return Err(LinearError::NoConvergence);
+    }
     // Insertion: stable, so that pairs stay together.
     for end in 1..N {
         for k in (1..=end).rev() {
@@ -105,9 +108,10 @@ fn growth<T: Real>(time: Time, pole: Complex<T>) -> T {
 /// Whether `ẋ = A·x`, or `x⁺ = A·x`, comes to rest.
 ///
 /// A sign of a real part would be decided by rounding: two integrators one after another have computed poles of ±10⁻⁸
-/// in other coordinates. So the question is asked of the matrix: is one with a pole on the boundary within `10·N·ε` of
-/// it? A pole of −10⁻¹⁰ is stable beside entries of 1 if it is alone; a double one is marginal. Entries that are rounding
-/// beside the largest of their row count as zero.
+/// in other coordinates. So the question is asked of the matrix: does one within `10·N·ε` of its norm have this pole on the
+/// boundary? A pole of −10⁻¹⁰ is stable beside entries of 1 if it is alone; a double one is marginal. The units of the states
+/// are taken as they are: what cancelled in a model leaves some ε of its large entries, and in other units that would pass
+/// for a spring.
 ///
 /// # Errors
 ///
@@ -115,7 +119,7 @@ fn growth<T: Real>(time: Time, pole: Complex<T>) -> T {
 ///
 /// # Cost
 ///
-/// The poles, and for each some 50·N³ multiplications.
+/// The poles, and for each some 200·N³ multiplications.
 ///
 /// # Source
 ///
@@ -125,19 +129,18 @@ pub fn stability<T: Real, const N: usize>(
     a: &SMatrix<T, N, N>,
 ) -> Result<Stability<T>, LinearError> {
     let poles = sorted_poles(time, a)?;
-    let (a, _) = balanced(&without_rounding(a));
     let mut stability =
         Stability { verdict: Verdict::Stable, pole: Complex::new(T::zero(), T::zero()), margin: T::one() };
     if N == 0 {
         return Ok(stability);
     }
     stability.pole = poles[0];
-    let equal = rounding::<T, N>() * norm(&a);
+    let equal = T::EPSILON * norm(a);
     for (k, pole) in poles.iter().enumerate() {
         if is_known(*pole, poles.iter().take(k), equal) {
             continue;
         }
-        let (verdict, margin) = judge(time, &a, *pole);
+        let (verdict, margin) = judge(time, a, *pole);
         match (verdict, stability.verdict) {
             (Verdict::Unstable, _) | (Verdict::Marginal, Verdict::Stable) => stability.verdict = verdict,
             _ => {}
@@ -158,7 +161,8 @@ pub(crate) fn is_known<'a, T: Real>(
     pole.im < T::zero() || answered.any(|other| modulus(*other - pole) <= equal)
 }
 
-/// Whether the mode of a pole of a balanced matrix decays, and how far the nearest boundary is, relative to the norm.
+/// Whether the mode of a pole decays, and how much of its norm the matrix has to change for the pole to be on the boundary:
+/// the largest of the distances to a singular `A − z·1` on the straight way there. At its end alone another pole may be.
 pub(crate) fn judge<T: Real, const N: usize>(
     time: Time,
     a: &SMatrix<T, N, N>,
@@ -179,7 +183,12 @@ pub(crate) fn judge<T: Real, const N: usize>(
     if size == T::zero() {
         return (Verdict::Marginal, T::zero());
     }
-    let margin = smallest_singular_value(a, &SMatrix::<T, N, 0>::zeros(), boundary) / size;
+    let mut margin = T::zero();
+    for part in [1.0, 0.75, 0.5, 0.25] {
+        let part = real(T::of(part));
+        let on_the_way = pole + (boundary - pole) * part;
+        margin = margin.max(smallest_singular_value(a, &SMatrix::<T, N, 0>::zeros(), on_the_way) / size);
+    }
     let verdict = match (margin <= rounding::<T, N>(), stable) {
         (true, _) => Verdict::Marginal,
         (false, true) => Verdict::Stable,

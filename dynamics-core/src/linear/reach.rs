@@ -4,7 +4,6 @@ use core::ops::Range;
 
 use nalgebra::{Complex, SMatrix, SVector};
 
-use super::balance::{balanced, without_rounding};
 use super::complex::{modulus, real};
 use super::error::LinearError;
 use super::matrix::{norm, rounding};
@@ -20,7 +19,7 @@ pub struct Reach<T, const N: usize> {
     /// The dimension of the subspace that is reached (controllability), or that is seen (observability).
     pub dimension: usize,
     /// How far the nearest model is that lacks a mode, relative to the norms of A and B (or C): at most. It was looked
-    /// for at the poles; states are in balanced units, inputs scaled to norm 1.
+    /// for at the poles, with the states in the units that they have.
     pub distance: T,
     /// The pole of the mode that is reached or seen least.
     pub weakest: Complex<T>,
@@ -66,6 +65,9 @@ impl<T: Real, const N: usize> Reach<T, N> {
 /// The rank of `[B AB A²B …]` would be asked of powers, which lose all but the fastest mode. Instead orthogonal
 /// transformations bring `(A, B)` into staircase form, whose steps are compared with rounding; and the distance of
 /// `[A − λ·1, B]` from losing rank is found at each pole. A model that either calls incomplete is so.
+///
+/// Rounding is `10·N·ε` of the norms of A and of B in the units of the states as they are: choose some in which states are
+/// of about one size. In others, what cancelled in a model would pass for a coupling.
 ///
 /// # Errors
 ///
@@ -122,11 +124,9 @@ pub(crate) fn reach<T: Real, const N: usize, const M: usize>(
     a: &SMatrix<T, N, N>,
     b: &SMatrix<T, N, M>,
 ) -> Result<Reach<T, N>, LinearError> {
-    let (a, scales) = balanced(&without_rounding(a));
-    let b = SMatrix::<T, N, M>::from_fn(|i, j| b[(i, j)] / scales[i]);
     // Inputs and time have units of their own: with A and B of norm 1 the distance does not depend on them.
-    let (a, size) = normalised(&a);
-    let (b, _) = normalised(&b);
+    let (a, size) = normalised(a);
+    let (b, _) = normalised(b);
     let staircase = Staircase::new(&a, &b);
     let cut = staircase.trailing(staircase.narrowest, T::zero());
     let of_cut = Schur::new("A", &cut)?.eigenvalues();

@@ -62,7 +62,7 @@ impl<T: Real, const N: usize> Riccati<T, N> {
     /// Automat. Control 13 (1968) 114–115; G. Hewer, same journal 16 (1971) 382–384. The matrix whose stable subspace is
     /// sought, and why balanced: A. Laub, same journal 24 (1979) 913–921.
     pub(crate) fn solve(&self) -> Result<Solution<T, N>, LinearError> {
-        let (balanced, units) = self.balanced();
+        let (balanced, scales) = self.balanced();
         let mut best: Option<Solution<T, N>> = None;
         for attempt in 0..8 {
             let solution = balanced.start(attempt).and_then(|start| balanced.refined(start));
@@ -77,7 +77,7 @@ impl<T: Real, const N: usize> Riccati<T, N> {
         let residual = best.as_ref().map_or(f64::INFINITY, |best| best.residual.to_f64());
         match best {
             Some(best) if best.residual <= Self::tolerance() => {
-                let p = SMatrix::from_fn(|i, j| best.p[(i, j)] * units(i) * units(j));
+                let p = SMatrix::from_fn(|i, j| best.p[(i, j)] / scales[i] / scales[j]);
                 if is_finite(&p) { Ok(Solution { p, ..best }) } else { Err(LinearError::NoConvergence) }
             }
             _ => Err(LinearError::RiccatiResidual { residual }),
@@ -89,9 +89,9 @@ impl<T: Real, const N: usize> Riccati<T, N> {
         T::of(100.0) * rounding::<T, N>()
     }
 
-    /// The equation in units of the states and of the cost in which no entry is large without need, and what P is to be
-    /// multiplied by, from both sides, for each state.
-    fn balanced(&self) -> (Self, impl Fn(usize) -> T + use<T, N>) {
+    /// The equation in units of the states and of the cost in which no entry is large without need, and these units: P is
+    /// to be divided by them from both sides, and an input's row by its own.
+    pub(crate) fn balanced(&self) -> (Self, [T; N]) {
         let mut balanced = *self;
         let cost = ratio(norm(&self.q), norm(&self.g));
         balanced.q /= cost;
@@ -125,7 +125,7 @@ impl<T: Real, const N: usize> Riccati<T, N> {
         balanced.g *= rest;
         // Roots of powers of four are exact.
         let root = cost.sqrt() * rest.sqrt();
-        (balanced, move |i: usize| root / scales[i])
+        (balanced, scales.map(|scale| scale / root))
     }
 
     /// A first P. Even attempts are with Q as it is, odd ones with a cost of every state; each second one with another

@@ -121,19 +121,19 @@ impl<T: Real, const N: usize> Schur<T, N> {
     fn francis_step(&mut self, start: usize, end: usize, step: usize) {
         let t = &self.triangle;
         let last = end - 1;
+        // Both shifts from the last entry on: where all eigenvalues are close, their products say nothing.
+        let origin = t[(last, last)];
         let (sum, product) = if step.is_multiple_of(10) {
             // Shifts that no matrix reproduces.
             let size = t[(last, last - 1)].abs() + t[(last - 1, last - 2)].abs();
             (T::of(1.5) * size, size * size)
         } else {
-            let determinant =
-                t[(last - 1, last - 1)] * t[(last, last)] - t[(last - 1, last)] * t[(last, last - 1)];
-            (t[(last - 1, last - 1)] + t[(last, last)], determinant)
+            (t[(last - 1, last - 1)] - origin, -t[(last - 1, last)] * t[(last, last - 1)])
         };
-        let (x, below) = (t[(start, start)], t[(start + 1, start)]);
+        let (x, below) = (t[(start, start)] - origin, t[(start + 1, start)]);
         let mut first = SVector::zeros();
         first[start] = x * (x - sum) + t[(start, start + 1)] * below + product;
-        first[start + 1] = below * (x + t[(start + 1, start + 1)] - sum);
+        first[start + 1] = below * (x + (t[(start + 1, start + 1)] - origin) - sum);
         first[start + 2] = below * t[(start + 2, start + 1)];
         self.reflect(&Reflector::annihilating(&first, start..start + 3));
         for k in start + 1..last {

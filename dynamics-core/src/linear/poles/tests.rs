@@ -60,8 +60,10 @@ fn what_rounding_can_tell_is_told() {
     let cancelled = SMatrix::<f64, 3, 3>::from([[0.0, 1e-16, 0.0], [1.0, 0.0, 0.0], [0.0, -5.0, -1.0]]);
     assert_eq!(stability(Time::Continuous, &cancelled).expect("it converges").verdict, Verdict::Marginal);
     assert_eq!(judged([[-0.1, -1.0], [1.0, 0.0]]).verdict, Verdict::Stable);
-    // The units of the states do not matter.
-    assert_eq!(judged([[-0.1, -1e-12], [1e12, 0.0]]).verdict, Verdict::Stable);
+    assert_eq!(judged([[-0.1, -1e-5], [1e5, 0.0]]).verdict, Verdict::Stable);
+    // An integrator is no way out for a pole that grows.
+    let found = judged([[0.0, 0.0], [0.0, 4.0]]);
+    assert_eq!((found.verdict, found.pole.re), (Verdict::Unstable, 4.0));
     let circle = |a: [[f64; 2]; 2]| {
         stability(Time::Discrete, &SMatrix::<f64, 2, 2>::from(a)).expect("it converges").verdict
     };
