@@ -51,6 +51,7 @@ mod riccati;
 mod schur;
 mod singular;
 mod symmetric;
+mod twice;
 
 pub use discretize::{Hold, zero_order_hold};
 pub use error::LinearError;

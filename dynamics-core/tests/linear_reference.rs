@@ -1,6 +1,7 @@
 //! Linear models beside numbers of 50 digits, and beside the errors of SciPy and slycot.
 //!
 //! `linear/generate.py` writes `linear/reference.json`, with versions and seed.
+#![allow(clippy::print_stdout, reason = "`--nocapture` shows the errors beside those of the libraries")]
 
 use dynamics_core::linear::{
     Hold, LinearError, Time, Weights, controllability, kalman, lqr, place_poles, poles, zero_order_hold,

@@ -49,7 +49,7 @@ pub struct Kalman<T, const NX: usize, const NY: usize> {
 /// use dynamics_core::prelude::*;
 ///
 /// // A drifting number, measured with noise of variance 1 while it walks by 1 per step: the golden ratio.
-/// let one = SMatrix::from([[1.0_f64]]);
+/// let one = SMatrix::<f64, 1, 1>::new(1.0);
 /// let filter = kalman(Time::Discrete, &one, &one, &Weights::new(one, one))?;
 /// assert!((filter.covariance[0] - 0.5 * (1.0 + 5.0_f64.sqrt())).abs() < 1e-14);
 /// # Ok::<(), dynamics_core::linear::LinearError>(())

@@ -40,7 +40,7 @@ impl<T: Real, const NX: usize, const NU: usize, const NY: usize> StateSpace<T, N
         }))
     }
 
-    /// Whether motions end, with the pole that decides it and the margin. See [`stability`](super::stability).
+    /// Whether motions end, with the pole that decides it and the margin. See [`stability`].
     ///
     /// # Errors
     ///
@@ -58,7 +58,7 @@ impl<T: Real, const NX: usize, const NU: usize, const NY: usize> StateSpace<T, N
         Ok(self.stability()?.verdict == Verdict::Stable)
     }
 
-    /// Which modes the inputs reach. See [`controllability`](super::controllability).
+    /// Which modes the inputs reach. See [`controllability`].
     ///
     /// # Errors
     ///
@@ -67,7 +67,7 @@ impl<T: Real, const NX: usize, const NU: usize, const NY: usize> StateSpace<T, N
         controllability(&self.a, &self.b)
     }
 
-    /// Which modes the outputs show. See [`observability`](super::observability).
+    /// Which modes the outputs show. See [`observability`].
     ///
     /// # Errors
     ///
@@ -97,11 +97,11 @@ impl<T: Real, const NX: usize, const NU: usize, const NY: usize> StateSpace<T, N
 }
 
 impl<T: Real, const NX: usize, const NY: usize> StateSpace<T, NX, 1, NY> {
-    /// The feedback `u = −k·x` with desired poles. See [`place_poles`](super::place_poles).
+    /// The feedback `u = −k·x` with desired poles. See [`place_poles`].
     ///
     /// # Errors
     ///
-    /// Those of [`place_poles`](super::place_poles).
+    /// Those of [`place_poles`].
     pub fn place_poles(&self, desired: &[Complex<T>; NX]) -> Result<Placement<T, NX>, LinearError> {
         place_poles(&self.a, &self.b, desired)
     }

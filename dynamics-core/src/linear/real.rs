@@ -24,6 +24,9 @@ pub trait Real: Scalar + PartialOrd + NumAssign {
         if other > self { other } else { self }
     }
 
+    /// Two numbers with half of the digits whose sum is `self`.
+    fn halves(self) -> (Self, Self);
+
     /// The smallest power of two that is not below `self`, exact as a factor; one where there is none.
     fn power_of_two(self) -> Self {
         let (two, half) = (Self::of(2.0), Self::of(0.5));
@@ -49,6 +52,13 @@ macro_rules! impl_real {
             #[inline]
             fn to_f64(self) -> f64 {
                 self.into()
+            }
+
+            #[inline]
+            fn halves(self) -> (Self, Self) {
+                let spread = self * ((1_u32 << $float::MANTISSA_DIGITS.div_ceil(2)) + 1) as $float;
+                let high = spread - (spread - self);
+                (high, self - high)
             }
         }
     };

@@ -9,6 +9,7 @@ use super::lyapunov::lyapunov;
 use super::matrix::{is_finite, norm, norm_1, product_3, rounding, symmetric_part};
 use super::poles::Time;
 use super::real::Real;
+use super::twice::{Twice, TwiceMatrix, twice_product, twice_sum};
 use crate::product::product;
 
 /// Doublings before they are given up: modes down to 2⁻⁶⁰ of the norm have decayed by then.
@@ -180,23 +181,31 @@ impl<T: Real, const N: usize> Riccati<T, N> {
         Some(p)
     }
 
-    /// Puts P into the equation.
+    /// Puts P into the equation, with twice the digits: the terms are often much larger than Q, and rounding of them would
+    /// be all that Newton's method sees.
     fn evaluated(&self, p: &SMatrix<T, N, N>) -> Option<Evaluation<T, N>> {
         let Self { time, a, g, q } = self;
-        let (remainder, closed_loop, terms) = match time {
-            Time::Continuous => {
-                let (drift, feedback) = (product(&a.transpose(), p), product(g, p));
-                let quadratic = product(p, &feedback);
-                let remainder = drift + drift.transpose() - quadratic + q;
-                (remainder, a - feedback, [norm(&drift) + norm(&drift), norm(&quadratic), norm(q)])
-            }
+        let [wide_a, wide_g, wide_p, wide_q] = [a, g, p, q].map(|matrix| matrix.map(Twice::of));
+        let carried = twice_product(&wide_a.transpose(), &wide_p); // Aᵀ·P
+        let feedback = twice_product(&wide_g, &wide_p); // G·P
+        let quadratic = twice_product(&wide_p, &feedback); // P·G·P
+        let negated = |matrix: TwiceMatrix<T, N, N>| matrix.map(Twice::negated);
+        let (closed_loop, linear, quadratic) = match time {
+            Time::Continuous => (a - product(g, p), carried, quadratic),
             Time::Discrete => {
-                let closed_loop = Lu::new(&(SMatrix::identity() + product(g, p)))?.solve(a);
-                let carried = product_3(&a.transpose(), p, &closed_loop);
-                (carried - p + q, closed_loop, [norm(&carried), norm(p), norm(q)])
+                // With Y near (1 + G·P)⁻¹·A, Aᵀ·P·Y + Yᵀ·P·A − Yᵀ·(P + P·G·P)·Y is Aᵀ·P·(1 + G·P)⁻¹·A but for the square of
+                // its error.
+                let closed_loop = Lu::new(&(SMatrix::identity() + feedback.map(Twice::rounded)))?.solve(a);
+                let wide = closed_loop.map(Twice::of);
+                let weight = twice_sum(&wide_p, &quadratic);
+                let square = twice_product(&wide.transpose(), &twice_product(&weight, &wide));
+                (closed_loop, twice_product(&carried, &wide), twice_sum(&square, &wide_p))
             }
         };
-        let size = terms.into_iter().fold(T::zero(), Real::max);
+        let size = [norm(&linear.map(Twice::rounded)), norm(&quadratic.map(Twice::rounded)), norm(q)];
+        let size = size.into_iter().fold(T::zero(), Real::max);
+        let both = twice_sum(&linear, &linear.transpose());
+        let remainder = twice_sum(&twice_sum(&both, &negated(quadratic)), &wide_q).map(Twice::rounded);
         let remainder = symmetric_part(&remainder);
         let residual = if size > T::zero() { norm(&remainder) / size } else { T::zero() };
         residual.is_finite().then_some(Evaluation { remainder, closed_loop, residual })

@@ -11,8 +11,8 @@ use super::reflector::Reflector;
 /// Steps of the QR algorithm for one eigenvalue before it gives up. It takes two or three; thirty is a rare matrix.
 const STEPS: usize = 90;
 
-/// Steps in which small entries must be so beside their neighbours, too; later beside the diagonal is enough. Where
-/// eigenvalues are closer than rounding can tell the first may never be.
+/// Steps in which small entries must be so beside their neighbours; later beside the norm is enough. Where eigenvalues are
+/// closer than rounding can tell, or nothing but rounding, the first may never be.
 const PATIENCE: usize = 10;
 
 /// Schur's form of a real matrix.
@@ -101,14 +101,14 @@ impl<T: Real, const N: usize> Schur<T, N> {
             let (first, second) = (t[(k - 1, k - 1)], t[(k, k)]);
             let size = first.abs() + second.abs();
             let size = if size == T::zero() { T::one() } else { size }; // the matrix has norm ½ to 1
-            let small = below <= T::EPSILON * size
-                && (impatient || {
-                    let (large, little) = if below > above { (below, above) } else { (above, below) };
-                    let gap = (first - second).abs();
-                    let diagonal = second.abs().max(gap);
-                    let sum = diagonal + large;
-                    large * (little / sum) <= T::EPSILON * (second.abs() * (gap / sum)).max(T::EPSILON * size)
-                });
+            let close = below <= T::EPSILON * size && {
+                let (large, little) = if below > above { (below, above) } else { (above, below) };
+                let gap = (first - second).abs();
+                let diagonal = second.abs().max(gap);
+                let sum = diagonal + large;
+                large * (little / sum) <= T::EPSILON * (second.abs() * (gap / sum)).max(T::EPSILON * size)
+            };
+            let small = close || impatient && below <= T::of(N as f64) * T::EPSILON;
             if small || below == T::zero() {
                 t[(k, k - 1)] = T::zero();
                 return k;
