@@ -83,7 +83,7 @@ impl<'g> Robot<'g> {
         // A file has no parameters; what depends on fields is asked of programs alone.
         let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
         let tree = model.tree.map(|expr| evaluator.value(expr));
-        let coordinates = Coordinates::of(&spec, &model);
+        let coordinates = Coordinates::of(&model);
         Ok(Self { spec, report, model, tree, coordinates, compiled })
     }
 

@@ -14,7 +14,7 @@ pub use crate::dynamics::{
 pub use crate::error::Error;
 pub use crate::kinematics::{Frame, Kinematics, Pose};
 pub use crate::linearize::{Linearization, StateSpaceModel};
-pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
+pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Motion};
 pub use crate::regressor::{BaseRegressor, Regressor};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};

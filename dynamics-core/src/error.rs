@@ -59,6 +59,26 @@ pub enum Error {
         /// The field's name.
         field: &'static str,
     },
+    /// No coordinate, speed or input of the robot has this name.
+    NameUnknown {
+        /// The name.
+        name: &'static str,
+    },
+    /// The robot has fewer coordinates, speeds or inputs than that.
+    IndexTooLarge {
+        /// The index, counted from 0.
+        index: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// There is no equilibrium, nor a motion as asked for, where it was looked for: forces are left that nothing
+    /// nearby makes smaller. See [`trim`](crate::trim).
+    NoEquilibrium,
+    /// An iteration came to its limit before it was exact enough.
+    NotConverged {
+        /// How many steps it took.
+        iterations: usize,
+    },
     /// The slices of a batch are not of one length.
     BatchLength {
         /// The number of results asked for.
@@ -149,6 +169,19 @@ impl fmt::Display for Error {
             Self::ToleranceNotPositive => f.write_str("the tolerances are not positive and finite"),
             Self::ParameterNotFinite { field } => write!(f, "the parameter `{field}` is not finite"),
             Self::MassNotPositive { field } => write!(f, "the mass `{field}` is not positive"),
+            Self::NameUnknown { name } => {
+                write!(
+                    f,
+                    "the robot has no coordinate, speed or input `{name}`; its `Mechanism` lists the names"
+                )
+            }
+            Self::IndexTooLarge { index, count } => {
+                write!(f, "there is no {index} among {count}, counted from 0")
+            }
+            Self::NoEquilibrium => {
+                f.write_str("there is no equilibrium under these constraints near the guess")
+            }
+            Self::NotConverged { iterations } => write!(f, "{iterations} iterations did not converge"),
             Self::BatchLength { results, states } => {
                 write!(f, "a batch has room for {results} results and {states} states")
             }
@@ -191,6 +224,13 @@ mod tests {
             assert_eq!(error.to_string(), message);
         }
         assert_eq!(Error::StepNotPositive.to_string(), "the time step is not positive and finite");
+        let message = "the robot has no coordinate, speed or input `elbow`; its `Mechanism` lists the names";
+        assert_eq!(Error::NameUnknown { name: "elbow" }.to_string(), message);
+        let message = "there is no 7 among 7, counted from 0";
+        assert_eq!(Error::IndexTooLarge { index: 7, count: 7 }.to_string(), message);
+        let message = "there is no equilibrium under these constraints near the guess";
+        assert_eq!(Error::NoEquilibrium.to_string(), message);
+        assert_eq!(Error::NotConverged { iterations: 9 }.to_string(), "9 iterations did not converge");
     }
 
     #[test]

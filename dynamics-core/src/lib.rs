@@ -6,8 +6,8 @@
 //!
 //! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), the
 //! [centre of mass](CentroidalDynamics), [inertial parameters](Regressor), [simulation](Simulation),
-//! [linearisation](StateSpaceModel). The derive macro writes the implementations, specialised to one robot.
-//! No heap, no `unsafe`, no panics, no standard library unless asked for.
+//! [linearisation](StateSpaceModel), [linear analysis and design](linear). The derive macro writes the implementations,
+//! specialised to one robot. No heap, no `unsafe`, no panics, no standard library unless asked for.
 //!
 //! # Conventions
 //!
@@ -49,13 +49,16 @@ pub mod __private;
 #[cfg(feature = "simd")]
 pub mod batch;
 pub mod centroidal;
+pub mod control;
 pub mod dynamics;
 pub mod error;
 pub mod kinematics;
 #[cfg(feature = "simd")]
 pub mod lanes;
+pub mod linear;
 pub mod linearize;
 pub mod mechanism;
+pub mod output;
 mod product;
 pub mod regressor;
 #[cfg(feature = "simd")]
@@ -65,7 +68,9 @@ pub mod simulate;
 #[cfg(any(test, not(any(feature = "std", feature = "libm"))))]
 mod square_root;
 pub mod state;
+pub mod state_space;
 pub mod trigonometry;
+pub mod trim;
 
 pub use nalgebra;
 
@@ -79,22 +84,26 @@ pub use dynamics::{
 pub use error::Error;
 pub use kinematics::{Frame, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
-pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
+pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Motion};
 pub use regressor::{BaseRegressor, Regressor};
 pub use scalar::Scalar;
 pub use simulate::{
     Adaptive, Energy, Integrator, Rk4, Sample, SemiImplicitEuler, Simulation, Tolerances, Variational,
 };
 pub use state::{Configuration, State};
+pub use state_space::{Signal, StateSpace};
+pub use trim::{Trim, TrimFailure, Trimmed};
 
 /// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
 pub mod prelude {
+    pub use crate::control::{self, Reference};
+    pub use crate::output::{self, Output, Triple as _};
     pub use crate::{
         Adaptive, BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics,
         DynamicsDerivatives, Energy, EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts,
-        Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose,
-        Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel, Tolerances,
-        Variational,
+        Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Motion,
+        Pose, Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Signal, Simulation, State, StateSpace,
+        StateSpaceModel, Tolerances, Trim, Variational,
     };
     #[cfg(feature = "simd")]
     pub use crate::{

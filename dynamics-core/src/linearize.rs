@@ -3,9 +3,13 @@
 use nalgebra::{SMatrix, SVector};
 
 use crate::dynamics::{DynamicsDerivatives, ForwardDynamicsDerivatives};
-use crate::product::product;
+use crate::error::Error;
+use crate::mechanism::Mechanism;
+use crate::output::{OperatingPoint, Output, Row};
+use crate::product::{product, transposed_product};
 use crate::scalar::Scalar;
 use crate::state::Configuration;
+use crate::state_space::{Signal, StateSpace};
 
 /// A robot with inputs `u`, seen as `ẋ = f(x, u)` with `x = (q ⊖ q₀, v)`.
 ///
@@ -40,22 +44,125 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
         const { assert!(NX == 2 * NV, "the state x = (q, v) has 2·NV entries") };
         let input_map = self.input_map();
         let tau = product(&input_map, u);
-        let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } =
-            self.forward_dynamics_derivatives(q, v, &tau);
+        let derivatives = self.forward_dynamics_derivatives(q, v, &tau);
         let acceleration = self.forward_dynamics(q, v, &tau);
-
-        let mut linearization =
-            Linearization { a: SMatrix::zeros(), b: SMatrix::zeros(), drift: SVector::zeros() };
-        let Linearization { a, b, drift } = &mut linearization;
-        put(a, 0, 0, &self.tangent_rate(v));
-        put(a, 0, NV, &SMatrix::<T, NV, NV>::identity());
-        put(a, NV, 0, &da_dq);
-        put(a, NV, NV, &da_dv);
-        put(b, NV, 0, &product(&da_dtau, &input_map));
-        put(drift, 0, 0, v);
-        put(drift, NV, 0, &acceleration);
-        linearization
+        assembled(v, &acceleration, &derivatives, &self.tangent_rate(v), &input_map)
     }
+
+    /// The linear model at `(q, v, u)` with the outputs that are asked for: `A`, `B`, `C`, `D`, the drift and the offset,
+    /// with names and units. It is exact at any state and input, at rest or not.
+    ///
+    /// `NY` is the number of rows of `outputs`; another one does not compile. What an output depends on the
+    /// acceleration goes into `C` and `D` through `∂a/∂q`, `∂a/∂v` and `∂a/∂u`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::NotFinite`] names the argument or the result (`a`, `A`, `C` or `y`) that is not;
+    /// [`Error::NotUnitQuaternion`]; [`Error::SingularMassMatrix`]; [`Error::NameUnknown`] and
+    /// [`Error::IndexTooLarge`] for an output.
+    ///
+    /// # Cost
+    ///
+    /// That of [`linearize`](Self::linearize), and of the outputs.
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// # use dynamics_core::prelude::*;
+    /// # fn print<R, Tool0>(robot: &R) -> Result<(), Error>
+    /// # where R: StateSpaceModel<f64, 2, 2, 4, 1> + Mechanism, Tool0: Frame<R, f64, 2, 2> {
+    /// let (q, v, u) = (SVector::from([0.4, 0.7]), SVector::from([1.0, -2.0]), SVector::from([3.0]));
+    /// let measured = (output::joint("elbow"), output::position::<Tool0>());
+    /// let plant: StateSpace<f64, 4, 1, 4> = robot.state_space(&q, &v, &u, &measured)?;
+    /// println!("{plant}");
+    /// # Ok(()) }
+    /// ```
+    fn state_space<O, const NY: usize>(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        u: &SVector<T, NU>,
+        outputs: &O,
+    ) -> Result<StateSpace<T, NX, NU, NY>, Error>
+    where
+        Self: Mechanism,
+        O: Output<Self, T, NQ, NV> + ?Sized,
+    {
+        const { assert!(NX == 2 * NV, "the state x = (q, v) has 2·NV entries") };
+        const { assert!(NY == O::ROWS, "NY is the number of rows of the outputs") };
+        Error::unless_finite("u", u)?;
+        let input_map = self.input_map();
+        let tau = product(&input_map, u);
+        let acceleration = self.try_forward_dynamics(q, v, &tau)?;
+        let derivatives = self.forward_dynamics_derivatives(q, v, &tau);
+        let tangent_rate = self.tangent_rate(v);
+
+        let mut rows = [Row::zero(); NY];
+        let at = OperatingPoint { q: *q, v: *v, a: acceleration, tau, tangent_rate };
+        outputs.write(self, &at, &mut rows)?;
+
+        let Linearization { a, b, drift } =
+            assembled(v, &acceleration, &derivatives, &tangent_rate, &input_map);
+        let (mut c, mut d) = (SMatrix::zeros(), SMatrix::zeros());
+        let mut offset = SVector::zeros();
+        let mut names = [Signal::UNNAMED; NY];
+        let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } = &derivatives;
+        for (index, (row, name)) in rows.iter().zip(&mut names).enumerate() {
+            let Row { signal, value, by_q, by_v, by_a, by_tau } = row;
+            let by_q = by_q + transposed_product(da_dq, by_a);
+            let by_v = by_v + transposed_product(da_dv, by_a);
+            let by_tau = by_tau + transposed_product(da_dtau, by_a);
+            put(&mut c, index, 0, &by_q.transpose());
+            put(&mut c, index, NV, &by_v.transpose());
+            put(&mut d, index, 0, &transposed_product(&input_map, &by_tau).transpose());
+            put(&mut offset, index, 0, &SVector::from([*value]));
+            *name = *signal;
+        }
+        for entries in &a.data.0 {
+            Error::unless_finite("A", &SVector::from(*entries))?;
+        }
+        Error::unless_finite("y", &offset)?;
+        for entries in &c.data.0 {
+            Error::unless_finite("C", &SVector::from(*entries))?;
+        }
+        let state = |index: usize| match index.checked_sub(NV) {
+            None => Signal::displacement::<Self>(index),
+            Some(index) => Signal::speed::<Self>(index),
+        };
+        Ok(StateSpace {
+            a,
+            b,
+            c,
+            d,
+            drift,
+            offset,
+            sample_time: None,
+            states: core::array::from_fn(state),
+            inputs: core::array::from_fn(Signal::input::<Self>),
+            outputs: names,
+        })
+    }
+}
+
+/// The linear model of its blocks.
+fn assembled<T: Scalar, const NV: usize, const NX: usize, const NU: usize>(
+    v: &SVector<T, NV>,
+    acceleration: &SVector<T, NV>,
+    derivatives: &ForwardDynamicsDerivatives<T, NV>,
+    tangent_rate: &SMatrix<T, NV, NV>,
+    input_map: &SMatrix<T, NV, NU>,
+) -> Linearization<T, NX, NU> {
+    let mut linearization =
+        Linearization { a: SMatrix::zeros(), b: SMatrix::zeros(), drift: SVector::zeros() };
+    let Linearization { a, b, drift } = &mut linearization;
+    put(a, 0, 0, tangent_rate);
+    put(a, 0, NV, &SMatrix::<T, NV, NV>::identity());
+    put(a, NV, 0, &derivatives.da_dq);
+    put(a, NV, NV, &derivatives.da_dv);
+    put(b, NV, 0, &product(&derivatives.da_dtau, input_map));
+    put(drift, 0, 0, v);
+    put(drift, NV, 0, acceleration);
+    linearization
 }
 
 /// `ẋ ≈ A·δx + B·δu + drift`, with `x = (q ⊖ q₀, v)`.

@@ -16,6 +16,19 @@ pub trait Mechanism {
     const JOINT_NAMES: &'static [&'static str];
     /// The bodies, parents before children; the world is not one of them.
     const BODY_NAMES: &'static [&'static str];
+    /// The coordinates, in the order of `q`: the joint's name, or where it has several `root_joint.x`, `root_joint.qw`.
+    const COORDINATE_NAMES: &'static [&'static str] = &[];
+    /// The directions of the tangent space, in the order of `v`: `δ` of `q ⊕ δ`.
+    ///
+    /// The name of the coordinate where there is one; `.rx` to `.rz` of the rotations of a ball or free joint about the
+    /// body's axes, `.dx` to `.dz` of the displacements of a free one along them.
+    const DISPLACEMENT_NAMES: &'static [&'static str] = &[];
+    /// The speeds, in the order of `v`: the joint's name, or where it has several `root_joint.vx`, `root_joint.wz`.
+    const SPEED_NAMES: &'static [&'static str] = &[];
+    /// Whether each speed is that of an angle or of a distance, in the order of `v`.
+    const MOTIONS: &'static [Motion] = &[];
+    /// The speed that each input drives, by its index in `v`, in the order of `u`.
+    const ACTUATED: &'static [usize] = &[];
     /// The limits, one entry per velocity coordinate, in the order of `v`.
     const LIMITS: &'static [JointLimits];
     /// The inertial parameters `π`, in their order in [`Regressor`](crate::Regressor); empty without one.
@@ -25,6 +38,53 @@ pub trait Mechanism {
     /// The operations each method takes; on a robot with parameters, after `prepare`. Of a method so long that it
     /// recurses over a table of links, an estimate, as its documentation says; all others are counted.
     const COST: Costs;
+}
+
+/// What a velocity coordinate moves by, and so its units.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Motion {
+    /// An angle: rad, rad/s, rad/s², N·m.
+    Rotation,
+    /// A distance: m, m/s, m/s², N.
+    Translation,
+}
+
+impl Motion {
+    /// The unit of the coordinate: `rad` or `m`.
+    #[must_use]
+    pub const fn unit(self) -> &'static str {
+        match self {
+            Self::Rotation => "rad",
+            Self::Translation => "m",
+        }
+    }
+
+    /// The unit of the speed: `rad/s` or `m/s`.
+    #[must_use]
+    pub const fn speed_unit(self) -> &'static str {
+        match self {
+            Self::Rotation => "rad/s",
+            Self::Translation => "m/s",
+        }
+    }
+
+    /// The unit of the acceleration: `rad/s²` or `m/s²`.
+    #[must_use]
+    pub const fn acceleration_unit(self) -> &'static str {
+        match self {
+            Self::Rotation => "rad/s²",
+            Self::Translation => "m/s²",
+        }
+    }
+
+    /// The unit of the joint force: `N·m` or `N`.
+    #[must_use]
+    pub const fn force_unit(self) -> &'static str {
+        match self {
+            Self::Rotation => "N·m",
+            Self::Translation => "N",
+        }
+    }
 }
 
 /// The limits of one velocity coordinate, in rad, rad/s, N·m (prismatic: m, m/s, N).

@@ -1,12 +1,12 @@
 //! The constants of robots: sizes, names, limits.
 
-use dynamics_core::{JointLimits, Mechanism};
+use dynamics_core::{JointLimits, Mechanism, Motion};
 use dynamics_tests::roads::travel;
 use dynamics_tests::zoo;
 use dynamics_tests::zoo::files::{hyq, loaded_scara};
 use dynamics_tests::zoo::fixtures::{lift, torso};
 use dynamics_tests::zoo::industrial::{iiwa14, puma560_by_dh};
-use dynamics_tests::zoo::joints::{gripper, locked, two_free_bodies};
+use dynamics_tests::zoo::joints::{gripper, locked, sleeve, two_free_bodies};
 
 #[test]
 fn sizes_and_names_are_those_of_the_specification() {
@@ -67,6 +67,31 @@ fn names_and_limits_are_those_of_coordinates() {
     type LoadedScara = loaded_scara::LoadedScara<f64>;
     assert_eq!(LoadedScara::JOINT_NAMES, ["joint1", "joint2", "joint3"]);
     assert_eq!((LoadedScara::LIMITS[2].lower, LoadedScara::LIMITS[2].upper), (0.0, 0.21));
+}
+
+/// Names of coordinates, of displacements and of speeds: of joints that have several, and of followers that have none.
+#[test]
+fn coordinates_and_speeds_have_names() {
+    type Hyq = hyq::Hyq;
+    let of_base = ["x", "y", "z", "qx", "qy", "qz", "qw"].map(|part| format!("root_joint.{part}"));
+    assert_eq!(Hyq::COORDINATE_NAMES[..7], of_base);
+    let of_base = ["dx", "dy", "dz", "rx", "ry", "rz"].map(|part| format!("root_joint.{part}"));
+    assert_eq!(Hyq::DISPLACEMENT_NAMES[..6], of_base);
+    let of_base = ["vx", "vy", "vz", "wx", "wy", "wz"].map(|part| format!("root_joint.{part}"));
+    assert_eq!(Hyq::SPEED_NAMES[..6], of_base);
+    assert_eq!(Hyq::MOTIONS[2..4], [Motion::Translation, Motion::Rotation]);
+    for names in [&Hyq::COORDINATE_NAMES[7..], &Hyq::DISPLACEMENT_NAMES[6..], &Hyq::SPEED_NAMES[6..]] {
+        assert_eq!(names, &Hyq::JOINT_NAMES[1..]);
+    }
+    assert_eq!(Hyq::ACTUATED, (6..18).collect::<Vec<_>>());
+    type Gripper = gripper::Gripper<f64>;
+    assert_eq!(Gripper::SPEED_NAMES, ["roll", "knuckle", "wag"]);
+    assert_eq!(sleeve::Sleeve::DISPLACEMENT_NAMES, ["pan", "sleeve.angle", "sleeve.distance", "tilt"]);
+    assert_eq!(sleeve::Sleeve::MOTIONS[1..3], [Motion::Rotation, Motion::Translation]);
+    type TwoFreeBodies = two_free_bodies::TwoFreeBodies<f64>;
+    assert_eq!((TwoFreeBodies::COORDINATE_NAMES.len(), TwoFreeBodies::SPEED_NAMES.len()), (15, 13));
+    assert_eq!((TwoFreeBodies::DISPLACEMENT_NAMES.len(), TwoFreeBodies::MOTIONS.len()), (13, 13));
+    assert_eq!(TwoFreeBodies::ACTUATED, (0..7).collect::<Vec<_>>());
 }
 
 /// What depends on fields alone is done once: a robot without fields has nothing to prepare.

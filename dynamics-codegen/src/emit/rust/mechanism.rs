@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use super::items::Emitter;
 use super::methods::{self, Written};
 use crate::mechanics::equations::Inputs;
-use crate::model::Limits;
+use crate::model::{JointInfo, Limits};
 use crate::passes::Cost;
 
 impl Emitter<'_, '_> {
@@ -33,6 +33,27 @@ impl Emitter<'_, '_> {
                 let _ = writeln!(constants, "        const {name}: &'static [&'static str] = &[{list}];");
             }
         }
+        let of_joints = |names: fn(&JointInfo) -> Vec<String>| {
+            let names: Vec<String> = model.joints.iter().flat_map(names).collect();
+            quoted(names.iter().map(String::as_str).collect())
+        };
+        for (name, list) in [
+            ("COORDINATE_NAMES", of_joints(JointInfo::coordinate_names)),
+            ("DISPLACEMENT_NAMES", of_joints(JointInfo::displacement_names)),
+            ("SPEED_NAMES", of_joints(JointInfo::speed_names)),
+        ] {
+            let _ = writeln!(constants, "        const {name}: &'static [&'static str] = &[{list}];");
+        }
+        let turns = model.joints.iter().flat_map(|joint| joint.kind.turns());
+        let motions: Vec<_> =
+            turns.map(|turns| if *turns { "Motion::Rotation" } else { "Motion::Translation" }).collect();
+        let actuated: Vec<_> = model.actuated.iter().map(usize::to_string).collect();
+        let _ = writeln!(
+            constants,
+            "        const MOTIONS: &'static [Motion] = &[{}];\n        const ACTUATED: &'static [usize] = &[{}];",
+            motions.join(", "),
+            actuated.join(", ")
+        );
         constants.push_str("        const LIMITS: &'static [JointLimits] = &[\n");
         for each in model.joints.iter().flat_map(|joint| &joint.limits) {
             let _ = writeln!(constants, "            {},", limits(*each));
@@ -63,13 +84,18 @@ impl Emitter<'_, '_> {
 }
 
 /// The constants of the trait `Mechanism`.
-const CONSTANTS: [(&str, &str); 10] = [
+const CONSTANTS: [(&str, &str); 15] = [
     ("NQ", "usize"),
     ("NV", "usize"),
     ("NU", "usize"),
     ("NAME", "&'static str"),
     ("JOINT_NAMES", "&'static [&'static str]"),
     ("BODY_NAMES", "&'static [&'static str]"),
+    ("COORDINATE_NAMES", "&'static [&'static str]"),
+    ("DISPLACEMENT_NAMES", "&'static [&'static str]"),
+    ("SPEED_NAMES", "&'static [&'static str]"),
+    ("MOTIONS", "&'static [Motion]"),
+    ("ACTUATED", "&'static [usize]"),
     ("PARAMETER_NAMES", "&'static [&'static str]"),
     ("BASE_PARAMETER_NAMES", "&'static [&'static str]"),
     ("LIMITS", "&'static [JointLimits]"),

@@ -1,0 +1,54 @@
+//! Why there is no trim.
+
+use core::fmt;
+
+use super::Trimmed;
+use crate::error::Error;
+
+/// Why a search for a [trim](crate::trim) found none, with the best state that it came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TrimFailure<T, const NQ: usize, const NV: usize, const NU: usize> {
+    /// There is none near the guess: whatever is free, no small change of it makes the residual smaller. It is no
+    /// statement on places far away; another guess may have one.
+    NoEquilibrium(Trimmed<T, NQ, NV, NU>),
+    /// The residual was still getting smaller when the limit of steps came.
+    NotConverged(Trimmed<T, NQ, NV, NU>),
+    /// The search did not begin: a guess or a target is not finite, a quaternion is not of unit length, a joint is not
+    /// one of the robot's; or the equations are not finite at the guess.
+    Invalid(Error),
+}
+
+impl<T, const NQ: usize, const NV: usize, const NU: usize> From<TrimFailure<T, NQ, NV, NU>> for Error {
+    fn from(failure: TrimFailure<T, NQ, NV, NU>) -> Self {
+        match failure {
+            TrimFailure::NoEquilibrium(_) => Self::NoEquilibrium,
+            TrimFailure::NotConverged(best) => Self::NotConverged { iterations: best.iterations },
+            TrimFailure::Invalid(error) => error,
+        }
+    }
+}
+
+impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> fmt::Display
+    for TrimFailure<T, NQ, NV, NU>
+{
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let best = match self {
+            Self::NoEquilibrium(best) => {
+                f.write_str("there is no equilibrium near the guess; at best")?;
+                best
+            }
+            Self::NotConverged(best) => {
+                write!(f, "{} steps were not enough: allow more, or guess nearer; by then", best.iterations)?;
+                best
+            }
+            Self::Invalid(error) => return error.fmt(f),
+        };
+        let ([q], [forces]) = (&best.state.q.data.0, &best.imbalance.data.0);
+        write!(f, " forces {forces:?} are left at q = {q:?}, and the outputs miss by {:?}", best.miss)
+    }
+}
+
+impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> core::error::Error
+    for TrimFailure<T, NQ, NV, NU>
+{
+}
