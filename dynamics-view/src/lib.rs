@@ -1,0 +1,24 @@
+//! Pictures of moving robots.
+//!
+//! - A [`Figure`] of [`Chart`]s becomes SVG: lines over time, energy, phase portraits, poles.
+//! - A [`Film`] of a [`Scene`] becomes one HTML file that needs nothing else: the robot in three dimensions, to be
+//!   played, wound and turned, with its charts below.
+//!
+//! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
+
+mod chart;
+mod error;
+mod figure;
+mod labels;
+mod lines;
+mod phase;
+mod poles;
+mod scale;
+mod style;
+mod svg;
+mod text;
+mod thin;
+
+pub use chart::{Chart, Plane};
+pub use error::Error;
+pub use figure::Figure;
