@@ -7,13 +7,16 @@
 //! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
 
 mod chart;
+mod encode;
 mod error;
 mod figure;
+mod film;
 mod labels;
 mod lines;
 mod phase;
 mod poles;
 mod scale;
+mod scene;
 mod style;
 mod svg;
 mod text;
@@ -22,3 +25,5 @@ mod thin;
 pub use chart::{Chart, Plane};
 pub use error::Error;
 pub use figure::Figure;
+pub use film::Film;
+pub use scene::{Body, Joint, Motion, Placed, Scene};

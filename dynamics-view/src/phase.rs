@@ -57,5 +57,13 @@ fn arrows(points: &[[f64; 2]]) -> Vec<([f64; 2], [f64; 2])> {
         }
         gone += length;
     }
+    // A second turn may bring an arrow to one of the first.
+    let far = |a: [f64; 2], b: [f64; 2]| (a[0] - b[0]).hypot(a[1] - b[1]) > 60.0;
+    let all = found.clone();
+    let mut k = 0;
+    found.retain(|(at, _)| {
+        k += 1;
+        all[..k - 1].iter().all(|(other, _)| far(*at, *other))
+    });
     found
 }

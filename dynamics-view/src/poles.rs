@@ -62,7 +62,8 @@ pub(crate) fn draw(page: &mut Page, frame: &Frame, plane: Plane, sets: &[Poles])
                 + &path(&[[x + 5.0, y - 5.0], [x - 5.0, y + 5.0]]);
             page.path(&cross, &format!("l k s{}", k % COLOURS), &said(plane, set, pole));
             let label = if count > 1 { format!("{count}×") } else { continue };
-            let places = [[x + 12.0, y - 7.0], [x + 12.0, y + 15.0], [x - 12.0 - width(&label, SIZE), y - 7.0]];
+            let places =
+                [[x + 12.0, y - 7.0], [x + 12.0, y + 15.0], [x - 12.0 - width(&label, SIZE), y - 7.0]];
             if let Some(at) = places.into_iter().find(|at| taken.take(*at, &label)) {
                 page.text(at, &format!("{} halo", fill(k)), &label);
             }
