@@ -75,7 +75,7 @@ pub use dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
 pub use error::Error;
-pub use kinematics::{Frame, Kinematics, Pose};
+pub use kinematics::{EachFrame, Frame, FrameVisitor, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
 pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism};
 pub use regressor::{BaseRegressor, Regressor};
@@ -86,10 +86,11 @@ pub use state::{Configuration, State};
 /// Everything a program with a robot needs: `use dynamics_core::prelude::*;`.
 pub mod prelude {
     pub use crate::{
-        BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics, DynamicsDerivatives, Energy,
-        EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts, Integrator,
-        InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Pose, Regressor, Rk4,
-        Sample, Scalar, SemiImplicitEuler, Simulation, State, StateSpaceModel,
+        BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics, DynamicsDerivatives,
+        EachFrame, Energy, EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts,
+        FrameVisitor, Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization,
+        Mechanism, Pose, Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Simulation, State,
+        StateSpaceModel,
     };
     #[cfg(feature = "simd")]
     pub use crate::{

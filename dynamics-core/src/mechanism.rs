@@ -16,6 +16,8 @@ pub trait Mechanism {
     const JOINT_NAMES: &'static [&'static str];
     /// The bodies, parents before children; the world is not one of them.
     const BODY_NAMES: &'static [&'static str];
+    /// For each body the index of the one that it hangs on; `None` is the world. Empty where nobody said.
+    const BODY_PARENTS: &'static [Option<usize>] = &[];
     /// The limits, one entry per velocity coordinate, in the order of `v`.
     const LIMITS: &'static [JointLimits];
     /// The inertial parameters `π`, in their order in [`Regressor`](crate::Regressor); empty without one.

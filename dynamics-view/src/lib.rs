@@ -7,6 +7,7 @@
 //! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
 
 mod chart;
+mod coordinates;
 mod encode;
 mod error;
 mod figure;
@@ -15,6 +16,7 @@ mod labels;
 mod lines;
 mod phase;
 mod poles;
+mod recording;
 mod scale;
 mod scene;
 mod style;
@@ -23,7 +25,9 @@ mod text;
 mod thin;
 
 pub use chart::{Chart, Plane};
+pub use coordinates::{Coordinate, Coordinates, Loose, Measure};
 pub use error::Error;
 pub use figure::Figure;
 pub use film::Film;
+pub use recording::Recording;
 pub use scene::{Body, Joint, Motion, Placed, Scene};

@@ -24,6 +24,13 @@ impl Emitter<'_, '_> {
             model.actuated.len(),
             model.name
         );
+        let parent = |parent: &Option<usize>| match parent {
+            Some(parent) => format!("::core::option::Option::Some({parent})"),
+            None => "::core::option::Option::None".to_owned(),
+        };
+        let parents = model.parents.iter().map(parent).collect::<Vec<_>>().join(", ");
+        let type_ = "&'static [::core::option::Option<usize>]";
+        let _ = writeln!(constants, "        const BODY_PARENTS: {type_} = &[{parents}];");
         for (name, list) in [
             ("PARAMETER_NAMES", &self.input.compiled.parameter_names),
             ("BASE_PARAMETER_NAMES", &self.input.compiled.base_parameter_names),
@@ -63,13 +70,14 @@ impl Emitter<'_, '_> {
 }
 
 /// The constants of the trait `Mechanism`.
-const CONSTANTS: [(&str, &str); 10] = [
+const CONSTANTS: [(&str, &str); 11] = [
     ("NQ", "usize"),
     ("NV", "usize"),
     ("NU", "usize"),
     ("NAME", "&'static str"),
     ("JOINT_NAMES", "&'static [&'static str]"),
     ("BODY_NAMES", "&'static [&'static str]"),
+    ("BODY_PARENTS", "&'static [::core::option::Option<usize>]"),
     ("PARAMETER_NAMES", "&'static [&'static str]"),
     ("BASE_PARAMETER_NAMES", "&'static [&'static str]"),
     ("LIMITS", "&'static [JointLimits]"),
