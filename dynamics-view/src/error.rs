@@ -33,8 +33,8 @@ pub enum Error {
         /// The index of the first time that is not after the one before it.
         index: usize,
     },
-    /// A body's parent is not before it.
-    ParentAfterChild {
+    /// The bodies that carry a body do not lead to the world.
+    BodyUnconnected {
         /// The body.
         body: String,
     },
@@ -58,7 +58,7 @@ impl fmt::Display for Error {
             Self::TimesNotIncreasing { index } => {
                 write!(f, "the time at index {index} is not after the one before it")
             }
-            Self::ParentAfterChild { body } => write!(f, "the parent of the body `{body}` is not before it"),
+            Self::BodyUnconnected { body } => write!(f, "nothing joins the body `{body}` to the world"),
             Self::BodyUnknown { name } => write!(f, "there is no body `{name}`"),
         }
     }

@@ -95,7 +95,7 @@ impl Film {
     /// # Errors
     ///
     /// [`Error::Empty`] without bodies or frames; [`Error::LengthsDiffer`] for a frame with too many or too few poses;
-    /// [`Error::NotDrawable`], [`Error::TimesNotIncreasing`], [`Error::ParentAfterChild`], [`Error::BodyUnknown`]; those
+    /// [`Error::NotDrawable`], [`Error::TimesNotIncreasing`], [`Error::BodyUnconnected`], [`Error::BodyUnknown`]; those
     /// of [`Figure::svg`](crate::Figure::svg) for the charts.
     pub fn html(&self) -> Result<String, Error> {
         self.check()?;
@@ -116,10 +116,8 @@ impl Film {
             return Err(Error::Empty { what: format!("the animation of `{name}`") });
         }
         check_times(&self.times)?;
-        for (k, body) in bodies.iter().enumerate() {
-            if body.parent.is_some_and(|parent| parent >= k) {
-                return Err(Error::ParentAfterChild { body: body.name.clone() });
-            }
+        self.order()?;
+        for body in bodies {
             let inertia = body.inertia.as_flattened();
             check_numbers(&format!("the mass of `{}`", body.name), [body.mass])?;
             check_numbers(&format!("the centre of mass of `{}`", body.name), body.com)?;
@@ -141,16 +139,41 @@ impl Film {
         self.charts.iter().try_for_each(Chart::check)
     }
 
+    /// The bodies, those that carry others before these; in their own order as far as that goes.
+    fn order(&self) -> Result<Vec<usize>, Error> {
+        let bodies = &self.scene.bodies;
+        let mut order: Vec<usize> = vec![];
+        let mut is_in = vec![false; bodies.len()];
+        while order.len() < bodies.len() {
+            let before = order.len();
+            for (k, body) in bodies.iter().enumerate() {
+                let is_carried = body.parent.is_none_or(|parent| is_in.get(parent) == Some(&true));
+                if !is_in[k] && is_carried {
+                    is_in[k] = true;
+                    order.push(k);
+                }
+            }
+            if order.len() == before {
+                let lost = is_in.iter().position(|is_in| !is_in).unwrap_or(0);
+                return Err(Error::BodyUnconnected { body: bodies[lost].name.clone() });
+            }
+        }
+        Ok(order)
+    }
+
     fn data(&self) -> Result<Value, Error> {
+        let order = self.order()?;
+        let place = |body: usize| order.iter().position(|k| *k == body);
         let size = self.poses.iter().flatten().flat_map(|pose| pose.translation.iter().map(|x| x.abs()));
         let unit = quantum(size.fold(0.0, f64::max)).min(1e-3);
-        let bodies = self.scene.bodies.iter().enumerate();
-        let bodies: Vec<Value> = bodies.map(|(k, body)| self.body(k, body, unit)).collect();
+        let parent = |body: &Body| body.parent.and_then(place);
+        let written = |k: &usize| self.body(*k, parent(&self.scene.bodies[*k]), unit);
+        let bodies: Vec<Value> = order.iter().map(written).collect();
         let trace = match &self.trace {
             None => Value::Null,
             Some(name) => {
                 let at = self.scene.bodies.iter().position(|body| body.name == *name);
-                json!(at.ok_or_else(|| Error::BodyUnknown { name: name.clone() })?)
+                json!(place(at.ok_or_else(|| Error::BodyUnknown { name: name.clone() })?))
             }
         };
         let charts: Vec<Value> = self.charts.iter().filter_map(|chart| self.chart(chart)).collect();
@@ -173,14 +196,15 @@ impl Film {
         json!({ "unit": quantum, "row": row(values.iter().copied(), quantum) })
     }
 
-    fn body(&self, k: usize, body: &Body, unit: f64) -> Value {
+    fn body(&self, k: usize, parent: Option<usize>, unit: f64) -> Value {
+        let body = &self.scene.bodies[k];
         let places = self.places(k);
         let of =
             |entry: usize| row(places.iter().map(|place| place[entry]), if entry < 3 { unit } else { TURN });
         let motions: Vec<Value> = body.joint.motions.iter().map(motion).collect();
         let mut written = BTreeMap::from([
             ("name", json!(body.name)),
-            ("parent", json!(body.parent)),
+            ("parent", json!(parent)),
             ("place", json!((0..7).map(of).collect::<Vec<_>>())),
         ]);
         if !body.joint.kind.is_empty() {

@@ -87,7 +87,7 @@ where
     {
         let parameters = self.robot.inertial_parameters();
         for body in &mut self.scene.bodies {
-            let named = R::PARAMETER_NAMES.iter().position(|name| *name == format!("mass of {}", body.name));
+            let named = R::PARAMETER_NAMES.iter().position(|name| *name == format!("{}.mass", body.name));
             if let Some(at) = named
                 && let Some([mass, x, y, z, xx, xy, yy, xz, yz, zz]) =
                     parameters.as_slice().get(at..at + 10).and_then(|ten| <[f64; 10]>::try_from(ten).ok())
@@ -111,6 +111,18 @@ where
     /// Keeps a moment of a simulation.
     pub fn see(&mut self, sample: &Sample<'_, R, f64, NQ, NV>) {
         self.seen.push(Seen { time: sample.time, state: sample.state, energy: sample.energy() });
+    }
+
+    /// Keeps every moment that passes, and passes it on: `seen.watch(simulation.steps(1000)).last()`.
+    pub fn watch<'s, E>(
+        &'s mut self,
+        samples: impl Iterator<Item = Result<Sample<'r, R, f64, NQ, NV>, E>> + 's,
+    ) -> impl Iterator<Item = Result<Sample<'r, R, f64, NQ, NV>, E>> + 's {
+        samples.inspect(|sample| {
+            if let Ok(sample) = sample {
+                self.see(sample);
+            }
+        })
     }
 
     /// What its coordinates are.

@@ -2,7 +2,7 @@
 
 use dynamics_core::Pose;
 
-/// A robot to be drawn. Bodies that carry others come before them.
+/// A robot to be drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// What it is called.
