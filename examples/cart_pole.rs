@@ -1,8 +1,10 @@
 //! A cart-pole, linearised at the upright pose: A and B, and a feedback that balances it.
 //!
-//! `cargo run --example cart_pole`
+//! `cargo run --example cart_pole`, and in pictures `cargo run --example cart_pole -- --plot cart_pole.svg --animate cart_pole.html`
 
 use dynamics_core::prelude::*;
+use dynamics_examples::draw;
+use dynamics_view::{Chart, Figure, Plane, Recording};
 
 /// A cart of 1 kg that slides along x, and on it a rod of 0.1 kg and 1 m, upright at zero.
 ///
@@ -17,7 +19,7 @@ struct CartPole;
 /// The force on the cart `u = -K x` that puts all poles of the linear model between -2 and -3.5 1/s.
 const POLES: [f64; 4] = [-2.0, -2.5, -3.0, -3.5];
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     // x = (slider, hinge, their speeds); the two inputs are the force on the cart and the torque at the hinge.
     let (upright, rest) = (SVector::from([0.0, 0.0]), SVector::zeros());
     let Linearization { a, b, drift } = CartPole.linearize(&upright, &rest, &SVector::zeros());
@@ -35,12 +37,21 @@ fn main() -> Result<(), Error> {
         let x = SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
         SVector::from([-gain.dot(&x), 0.0])
     });
+    let mut seen = Recording::of(&CartPole).with_masses();
+    seen.see(&simulation.sample());
     println!("  time, s    cart, m   pole, rad");
     for _ in 0..8 {
-        let sample = simulation.steps(1000).last().expect("a thousand steps have a last")?;
+        let sample = seen.watch(simulation.steps(1000)).last().expect("a thousand steps have a last")?;
         println!("{:9.1} {:10.5} {:11.6}", sample.time, sample.state.q[0], sample.state.q[1]);
     }
-    Ok(())
+
+    let poles = |a: SMatrix<f64, 4, 4>| a.complex_eigenvalues().data.0[0].map(|pole| [pole.re, pole.im]);
+    let closed = a - b.column(0) * gain.transpose();
+    let planes = Chart::poles(Plane::Continuous).set("alone", poles(a)).set("with feedback", poles(closed));
+    draw(
+        || Figure::new("A cart-pole that balances").with_all(seen.charts()).with(planes.clone()),
+        || seen.film().tracing("pole"),
+    )
 }
 
 /// Ackermann's formula, `K = [0 0 0 1]·[b Ab A²b A³b]⁻¹·Π(A − pᵢ)`.

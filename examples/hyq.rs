@@ -1,6 +1,10 @@
 //! A quadruped on no ground: thrown, with its knees let go, it falls as a whole, and turns as its momentum says.
+//!
+//! `cargo run --example hyq`, and in pictures `cargo run --example hyq -- --plot hyq.svg --animate hyq.html`
 
 use dynamics_core::prelude::*;
+use dynamics_examples::draw;
+use dynamics_view::Recording;
 
 /// HyQ from its file, with what the file does not say: the rotors of its knees, and a load on its trunk.
 #[derive(Dynamics)]
@@ -12,7 +16,7 @@ struct Hyq<T> {
     load: T,
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let hyq = Hyq { load: 8.0 }.prepare();
     println!(
         "{} coordinates, {} speeds, {} inputs",
@@ -25,12 +29,13 @@ fn main() -> Result<(), Error> {
     let mut v = SVector::zeros();
     (v[2], v[3], v[11]) = (3.0, 1.0, -4.0);
     let mut flight = Simulation::new(&hyq, State::new(q, v), 1e-3)?;
+    let mut seen = Recording::of(&hyq).with_masses();
     println!("   t    height of the centre of mass    angular momentum about it");
     for step in 0..=5 {
         let sample = if step == 0 {
             flight.sample()
         } else {
-            flight.steps(100).last().transpose()?.unwrap_or(flight.sample())
+            seen.watch(flight.steps(100)).last().transpose()?.unwrap_or(flight.sample())
         };
         let State { q, v } = sample.state;
         let (center, momentum) = (hyq.center_of_mass(&q), hyq.centroidal_momentum(&q, &v));
@@ -39,5 +44,5 @@ fn main() -> Result<(), Error> {
             sample.time, center[2], momentum[3], momentum[4], momentum[5]
         );
     }
-    Ok(())
+    draw(|| seen.figure("A quadruped, thrown"), || seen.film())
 }

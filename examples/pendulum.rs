@@ -1,8 +1,10 @@
 //! A five-minute introduction: a pendulum, its equations against the textbook's, and ten seconds of motion.
 //!
-//! `cargo run --example pendulum`
+//! `cargo run --example pendulum`, and in pictures `cargo run --example pendulum -- --plot pendulum.svg --animate pendulum.html`
 
 use dynamics_core::prelude::*;
+use dynamics_examples::draw;
+use dynamics_view::Recording;
 
 /// A bob of mass `m` on a massless rod of length `l`, turning about the world's y axis.
 ///
@@ -15,7 +17,7 @@ struct Pendulum {
     l: f64,
 }
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pendulum = Pendulum { m: 2.0, l: 0.5 };
     let Pendulum { m, l } = pendulum;
     let (theta, omega, g) = (0.8_f64, 1.5, 9.81);
@@ -40,15 +42,16 @@ fn main() -> Result<(), Error> {
 
     // Released at rest, then in steps of a millisecond by the method of Runge and Kutta.
     let mut simulation = Simulation::new(&pendulum, State::rest(q), 1e-3)?;
+    let mut seen = Recording::of(&pendulum).with_masses();
     let before = simulation.sample().energy().total();
     println!("\nReleased at {theta} rad:\n  time, s   theta, rad   energy, J");
     for _ in 0..10 {
-        let sample = simulation.steps(1000).last().expect("a thousand steps have a last")?;
+        let sample = seen.watch(simulation.steps(1000)).last().expect("a thousand steps have a last")?;
         println!("{:9.1} {:12.6} {:11.6}", sample.time, sample.state.q[0], sample.energy().total());
     }
     let after = simulation.sample().energy().total();
     println!("The energy has changed by {:.1e} J.", after - before);
-    Ok(())
+    draw(|| seen.figure("A pendulum").with_all(seen.phase("theta")), || seen.film())
 }
 
 fn row(what: &str, derived: f64, textbook: f64) {

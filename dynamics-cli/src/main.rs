@@ -14,6 +14,7 @@ mod generate;
 mod input;
 mod motion;
 mod output;
+mod picture;
 mod progress;
 mod render;
 mod robot;

@@ -1,4 +1,4 @@
-//! `dynamics simulate FILE`: a robot left to itself, as CSV.
+//! `dynamics simulate FILE`: a robot left to itself, as CSV, and in pictures.
 
 use std::io::Write;
 use std::path::PathBuf;
@@ -10,11 +10,12 @@ use crate::failure::{Failure, Problem};
 use crate::input::InputArgs;
 use crate::motion::stepped;
 use crate::output::{failed, writer};
+use crate::picture::{PictureArgs, Recording};
 use crate::progress::Progress;
 use crate::robot::{Robot, State, Wanted};
 use crate::state;
 
-/// Simulate a robot that nothing drives, as CSV: time, coordinates, speeds and energies
+/// Simulate a robot that nothing drives, as CSV: time, coordinates, speeds and energies; and draw it
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
@@ -41,9 +42,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u64).range(1..))]
     every: u64,
 
-    /// The file to write; without it, standard output
+    /// The file to write; without it, standard output, unless a picture is asked for
     #[arg(short, long, value_name = "CSV")]
     output: Option<PathBuf>,
+
+    #[command(flatten)]
+    picture: PictureArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -59,9 +63,17 @@ Columns:
                              J: of motion, of gravity, of springs, and their sum
   drift                      the total less that at the start: what dampers and friction took, and the method's error
 
+Charts of --plot-of:
+  angles, speeds             of all joints; of a free one its position, and roll, pitch and yaw, or a quaternion if it
+                             turns over
+  energy                     kinetic, potential, elastic, total; and the drift
+  phase:NAME                 the speed of a coordinate over its value
+  poles                      of the linear model at the start
+
 Examples:
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
   dynamics simulate arm.urdf --time 1 --step 1e-4 --every 100
+  dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 --plot arm.svg --animate arm.html --trace tool
   dynamics simulate dog.urdf --base free --time 1 --step 1e-3 --q root_joint.z=0.6,knee=-1.2 --v root_joint.wz=1";
 
 /// More steps cannot be counted exactly in doubles, nor waited for.
@@ -89,18 +101,24 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let clock = Clock::of(args.time, args.step)?;
     let input = args.input.read()?;
     let graph = Graph::new();
-    let robot = Robot::of(&input, &graph, Wanted::Only(&METHODS))?;
+    let methods = [&METHODS[..], args.picture.methods()].concat();
+    let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
     let mut state = State::neutral(&robot);
     state::override_by("q", &mut state.q, args.q.as_deref(), &robot.coordinates.q)?;
     state::override_by("v", &mut state.v, args.v.as_deref(), &robot.coordinates.v)?;
     state::check_quaternions(&robot, &state.q)?;
-    let mut out = writer(args.output.as_deref(), &args.input.file)?;
+    let mut recording = Recording::of(&args.picture, &args.input.file, &robot, clock.steps)?;
+    let mut out: Box<dyn Write> = match (&args.output, args.picture.is_asked_for()) {
+        (None, true) => Box::new(std::io::sink()),
+        (output, _) => writer(output.as_deref(), &args.input.file)?,
+    };
     let mut write =
         |line: &str| out.write_all(line.as_bytes()).map_err(|error| failed(args.output.as_deref(), &error));
     write(&head(&robot))?;
     let start = energies(&robot, &state)?[3];
     let row = |time: f64, state: &State| row(&robot, time, state, start);
     write(&row(0.0, &state)?)?;
+    recording.see(0, 0.0, &state)?;
     let progress = Progress::of("simulating");
     for k in 1..=clock.steps {
         let (before, now) = (clock.at(k - 1), clock.at(k));
@@ -108,9 +126,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         if k % args.every == 0 || k == clock.steps {
             write(&row(now, &state).map_err(|failure| lost(failure, now))?)?;
         }
+        recording.see(k, now, &state).map_err(|failure| lost(failure, now))?;
         progress.done(k as f64 / clock.steps as f64);
     }
-    out.flush().map_err(|error| failed(args.output.as_deref(), &error))
+    out.flush().map_err(|error| failed(args.output.as_deref(), &error))?;
+    recording.write()
 }
 
 /// The times of the steps.
@@ -167,7 +187,7 @@ pub(crate) fn quoted(text: &str) -> String {
 }
 
 /// Kinetic, potential, elastic, and their sum, J.
-fn energies(robot: &Robot<'_>, state: &State) -> Result<[f64; 4], Failure> {
+pub(crate) fn energies(robot: &Robot<'_>, state: &State) -> Result<[f64; 4], Failure> {
     let energy = |method| robot.evaluate(method, state).map(|value| value[0]);
     let (kinetic, potential) = (energy(Method::KineticEnergy)?, energy(Method::PotentialEnergy)?);
     let elastic = energy(Method::ElasticEnergy)?;

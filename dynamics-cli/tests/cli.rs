@@ -9,6 +9,8 @@ mod eval;
 mod generate;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
+#[path = "cli/pictures.rs"]
+mod pictures;
 #[path = "cli/readme.rs"]
 mod readme;
 #[path = "cli/rollouts.rs"]

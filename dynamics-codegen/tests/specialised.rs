@@ -36,6 +36,7 @@ fn model_of<'g>(tree: &Tree<f64>, seed: u64) -> Model<'g> {
                 acts: link.motion.speeds() == 1,
             })
             .collect(),
+        parents: tree.links.iter().map(|link| link.parent).collect(),
         tree: tree.map(constant),
     }
 }

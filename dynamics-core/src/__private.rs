@@ -12,7 +12,7 @@ pub use crate::dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
 pub use crate::error::Error;
-pub use crate::kinematics::{Frame, Kinematics, Pose};
+pub use crate::kinematics::{EachFrame, Frame, FrameVisitor, Kinematics, Pose};
 pub use crate::linearize::{Linearization, StateSpaceModel};
 pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Motion};
 pub use crate::regressor::{BaseRegressor, Regressor};

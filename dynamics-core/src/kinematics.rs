@@ -40,6 +40,42 @@ pub trait Frame<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
     fn acceleration(robot: &R, q: &SVector<T, NQ>, v: &SVector<T, NV>, a: &SVector<T, NV>) -> SVector<T, 6>;
 }
 
+/// What is done with each frame of a robot `R`: a closure that is generic in the frame, which Rust has no word for.
+pub trait FrameVisitor<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize> {
+    /// Called once for each frame.
+    fn visit<F: Frame<R, T, NQ, NV>>(&mut self);
+}
+
+/// All frames of a robot, for code that asks the same of each, as drawing does. Implemented by generated code.
+///
+/// # Example
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// Where all bodies are.
+/// struct Places<'a, R> {
+///     robot: &'a R,
+///     q: SVector<f64, 7>,
+///     found: Vec<(&'static str, Pose<f64>)>,
+/// }
+///
+/// impl<R> FrameVisitor<R, f64, 7, 7> for Places<'_, R> {
+///     fn visit<F: Frame<R, f64, 7, 7>>(&mut self) {
+///         self.found.push((F::NAME, F::pose(self.robot, &self.q)));
+///     }
+/// }
+///
+/// fn places<R: EachFrame<f64, 7, 7>>(robot: &R, q: SVector<f64, 7>) -> Vec<(&'static str, Pose<f64>)> {
+///     let mut places = Places { robot, q, found: vec![] };
+///     robot.each_frame(&mut places);
+///     places.found
+/// }
+/// ```
+pub trait EachFrame<T: Scalar, const NQ: usize, const NV: usize> {
+    /// Shows the visitor all frames, in the order of [`Mechanism::BODY_NAMES`].
+    fn each_frame<V: FrameVisitor<Self, T, NQ, NV>>(&self, visitor: &mut V);
+}
+
 /// The kinematics of every robot: one method per question, the frame as its type argument.
 ///
 /// All methods are provided; there is nothing to implement but [`Frame`].

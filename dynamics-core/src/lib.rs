@@ -82,7 +82,7 @@ pub use dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
 pub use error::Error;
-pub use kinematics::{Frame, Kinematics, Pose};
+pub use kinematics::{EachFrame, Frame, FrameVisitor, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};
 pub use mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Motion};
 pub use regressor::{BaseRegressor, Regressor};
@@ -100,10 +100,10 @@ pub mod prelude {
     pub use crate::output::{self, Output, Triple as _};
     pub use crate::{
         Adaptive, BaseRegressor, CentroidalDynamics, Configuration, Cost, Costs, Dynamics,
-        DynamicsDerivatives, Energy, EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame, FrameCosts,
-        Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics, Linearization, Mechanism, Motion,
-        Pose, Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Signal, Simulation, State, StateSpace,
-        StateSpaceModel, Tolerances, Trim, Variational,
+        DynamicsDerivatives, EachFrame, Energy, EquationsOfMotion, Error, ForwardDynamicsDerivatives, Frame,
+        FrameCosts, FrameVisitor, Integrator, InverseDynamicsDerivatives, JointLimits, Kinematics,
+        Linearization, Mechanism, Motion, Pose, Regressor, Rk4, Sample, Scalar, SemiImplicitEuler, Signal,
+        Simulation, State, StateSpace, StateSpaceModel, Tolerances, Trim, Variational,
     };
     #[cfg(feature = "simd")]
     pub use crate::{

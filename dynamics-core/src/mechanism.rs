@@ -29,6 +29,8 @@ pub trait Mechanism {
     const MOTIONS: &'static [Motion] = &[];
     /// The speed that each input drives, by its index in `v`, in the order of `u`.
     const ACTUATED: &'static [usize] = &[];
+    /// For each body the index of the one that it hangs on; `None` is the world. Empty where nobody said.
+    const BODY_PARENTS: &'static [Option<usize>] = &[];
     /// The limits, one entry per velocity coordinate, in the order of `v`.
     const LIMITS: &'static [JointLimits];
     /// The inertial parameters `π`, in their order in [`Regressor`](crate::Regressor); empty without one.

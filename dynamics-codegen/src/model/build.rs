@@ -41,7 +41,8 @@ pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) ->
     let actuated = joints.iter().filter(|joint| joint.actuated).flat_map(|joint| joint.v.clone()).collect();
     let name = spec.ident.to_string();
     let links = link_infos(spec, &topology, &tree);
-    let model = Model { name, field_type: field_type?, parameters, joints, actuated, links, tree };
+    let parents = parents(spec, &tree);
+    let model = Model { name, field_type: field_type?, parameters, joints, actuated, links, parents, tree };
     (diags.len() == before).then_some(model)
 }
 
@@ -223,6 +224,13 @@ fn link_infos(spec: &RobotSpec, topology: &Topology, tree: &Tree<Expr<'_>>) -> V
         })
     };
     moving.flat_map(of_joint).collect()
+}
+
+/// The frame that each frame's body hangs on.
+fn parents(spec: &RobotSpec, tree: &Tree<Expr<'_>>) -> Vec<Option<usize>> {
+    let at = |name: &str| tree.frames.iter().position(|frame| frame.name == name);
+    let carrier = |frame: &Frame<_>| spec.joints.iter().find(|joint| joint.child.text == frame.name);
+    tree.frames.iter().map(|frame| at(&carrier(frame)?.parent.text)).collect()
 }
 
 /// The joints that have coordinates of their own.

@@ -147,6 +147,8 @@ pub struct Model<'g> {
     pub actuated: Vec<usize>,
     /// The links, as the tree has them.
     pub links: Vec<LinkInfo>,
+    /// For each body, in order of declaration, the one that it is joined to; `None` is the world.
+    pub parents: Vec<Option<usize>>,
     /// The kinematics and the masses. Its frames are the bodies, in order of declaration.
     pub tree: Tree<Expr<'g>>,
 }

@@ -74,6 +74,31 @@ impl Emitter<'_, '_> {
                 text.push_str("    }\n\n");
             }
         }
+        if frames.iter().enumerate().all(|(frame, _)| written.iter().any(|w| w.method.frame() == Some(frame)))
+        {
+            text.push_str(&self.each_frame());
+        }
+        text
+    }
+
+    /// The list of all frames, for each of the types.
+    fn each_frame(&self) -> String {
+        let module = frames_module(&self.item.name);
+        let visits: String = self
+            .frame_types
+            .iter()
+            .map(|type_| format!("            visitor.visit::<{module}::{type_}>();\n"))
+            .collect();
+        let v = self.item.free_type_name("V");
+        let mut text = String::new();
+        for host in self.types() {
+            let visitor = self.of_sizes("FrameVisitor").replacen('<', "<Self, ", 1);
+            text.push_str(&self.open(&host, &self.of_sizes("EachFrame"), &host.type_));
+            let _ = writeln!(
+                text,
+                "        fn each_frame<{v}: {visitor}>(&self, visitor: &mut {v}) {{\n{visits}        }}\n    }}\n"
+            );
+        }
         text
     }
 }

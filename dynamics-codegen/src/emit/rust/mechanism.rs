@@ -24,6 +24,13 @@ impl Emitter<'_, '_> {
             model.actuated.len(),
             model.name
         );
+        let parent = |parent: &Option<usize>| match parent {
+            Some(parent) => format!("::core::option::Option::Some({parent})"),
+            None => "::core::option::Option::None".to_owned(),
+        };
+        let parents = model.parents.iter().map(parent).collect::<Vec<_>>().join(", ");
+        let type_ = "&'static [::core::option::Option<usize>]";
+        let _ = writeln!(constants, "        const BODY_PARENTS: {type_} = &[{parents}];");
         for (name, list) in [
             ("PARAMETER_NAMES", &self.input.compiled.parameter_names),
             ("BASE_PARAMETER_NAMES", &self.input.compiled.base_parameter_names),
@@ -84,7 +91,7 @@ impl Emitter<'_, '_> {
 }
 
 /// The constants of the trait `Mechanism`.
-const CONSTANTS: [(&str, &str); 15] = [
+const CONSTANTS: [(&str, &str); 16] = [
     ("NQ", "usize"),
     ("NV", "usize"),
     ("NU", "usize"),
@@ -96,6 +103,7 @@ const CONSTANTS: [(&str, &str); 15] = [
     ("SPEED_NAMES", "&'static [&'static str]"),
     ("MOTIONS", "&'static [Motion]"),
     ("ACTUATED", "&'static [usize]"),
+    ("BODY_PARENTS", "&'static [::core::option::Option<usize>]"),
     ("PARAMETER_NAMES", "&'static [&'static str]"),
     ("BASE_PARAMETER_NAMES", "&'static [&'static str]"),
     ("LIMITS", "&'static [JointLimits]"),

@@ -109,6 +109,9 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
                 fn base_regressor(&self, q: &SVector<#scalar, #n_q>, v: &SVector<#scalar, #n>, a: &SVector<#scalar, #n>) -> SMatrix<#scalar, #n, __P> { loop {} }
                 fn base_parameters(&self) -> SVector<#scalar, __P> { loop {} }
             }
+            impl<#generics> EachFrame<#scalar, #n_q, #n> for #robot #bounds {
+                fn each_frame<__V: FrameVisitor<Self, #scalar, #n_q, #n>>(&self, visitor: &mut __V) { loop {} }
+            }
             impl<#generics> Configuration<#scalar, #n_q, #n> for #robot #bounds {
                 fn integrate(&self, q: &SVector<#scalar, #n_q>, delta: &SVector<#scalar, #n>) -> SVector<#scalar, #n_q> { loop {} }
             }

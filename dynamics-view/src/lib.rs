@@ -1,0 +1,33 @@
+//! Pictures of moving robots.
+//!
+//! - A [`Figure`] of [`Chart`]s becomes SVG: lines over time, energy, phase portraits, poles.
+//! - A [`Film`] of a [`Scene`] becomes one HTML file that needs nothing else: the robot in three dimensions, to be
+//!   played, wound and turned, with its charts below.
+//!
+//! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
+
+mod chart;
+mod coordinates;
+mod encode;
+mod error;
+mod figure;
+mod film;
+mod labels;
+mod lines;
+mod phase;
+mod poles;
+mod recording;
+mod scale;
+mod scene;
+mod style;
+mod svg;
+mod text;
+mod thin;
+
+pub use chart::{Chart, Plane};
+pub use coordinates::{Coordinate, Coordinates, Loose, Measure};
+pub use error::Error;
+pub use figure::Figure;
+pub use film::Film;
+pub use recording::Recording;
+pub use scene::{Body, Joint, Motion, Placed, Scene};
