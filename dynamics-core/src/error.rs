@@ -28,9 +28,10 @@ pub enum Error {
     SingularMassMatrix,
     /// A step of time is zero, negative, infinite or NaN.
     StepNotPositive,
-    /// An implicit step was not solved; a smaller step may be.
+    /// An iteration came to its limit before it was exact enough: that of an implicit step, which may be solved if it is
+    /// smaller, or that of a [trim](crate::trim).
     NotConverged {
-        /// After how many iterations it was given up.
+        /// How many iterations there were.
         iterations: usize,
     },
     /// The step of time would have to be smaller than its bound, or than what rounding leaves of it, for the error to
@@ -74,11 +75,6 @@ pub enum Error {
     /// There is no equilibrium, nor a motion as asked for, where it was looked for: forces are left that nothing
     /// nearby makes smaller. See [`trim`](crate::trim).
     NoEquilibrium,
-    /// An iteration came to its limit before it was exact enough.
-    NotConverged {
-        /// How many steps it took.
-        iterations: usize,
-    },
     /// The slices of a batch are not of one length.
     BatchLength {
         /// The number of results asked for.
@@ -159,7 +155,10 @@ impl fmt::Display for Error {
             Self::SingularMassMatrix => f.write_str("the mass matrix is singular"),
             Self::StepNotPositive => f.write_str("the time step is not positive and finite"),
             Self::NotConverged { iterations } => {
-                write!(f, "{iterations} iterations have not solved the step, which is too large")
+                write!(
+                    f,
+                    "{iterations} iterations have not converged: the step is too large, or the guess too far"
+                )
             }
             Self::StepTooSmall { time } => {
                 write!(f, "no step is small enough for the tolerances at {time} s")
@@ -181,7 +180,6 @@ impl fmt::Display for Error {
             Self::NoEquilibrium => {
                 f.write_str("there is no equilibrium under these constraints near the guess")
             }
-            Self::NotConverged { iterations } => write!(f, "{iterations} iterations did not converge"),
             Self::BatchLength { results, states } => {
                 write!(f, "a batch has room for {results} results and {states} states")
             }
@@ -214,7 +212,7 @@ mod tests {
         for (error, message) in [
             (
                 Error::NotConverged { iterations: 50 },
-                "50 iterations have not solved the step, which is too large",
+                "50 iterations have not converged: the step is too large, or the guess too far",
             ),
             (Error::StepTooSmall { time: 0.5 }, "no step is small enough for the tolerances at 0.5 s"),
             (Error::TooManySteps { time: 2.0 }, "the steps are used up at 2 s"),
@@ -230,7 +228,6 @@ mod tests {
         assert_eq!(Error::IndexTooLarge { index: 7, count: 7 }.to_string(), message);
         let message = "there is no equilibrium under these constraints near the guess";
         assert_eq!(Error::NoEquilibrium.to_string(), message);
-        assert_eq!(Error::NotConverged { iterations: 9 }.to_string(), "9 iterations did not converge");
     }
 
     #[test]

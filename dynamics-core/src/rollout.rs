@@ -87,7 +87,7 @@ use crate::batch::{Pack, States};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::lanes::{Element, Lanes, Native};
-use crate::simulate::{Integrator, Rk4};
+use crate::simulate::{Explicit, Rk4};
 use crate::state::{Configuration, State};
 
 /// How rollouts are computed: in which steps, how many, and which of them are samples.
@@ -125,7 +125,7 @@ impl<T: Element, L, I> Rollouts<T, L, I> {
 
     /// The same rollouts by another integrator.
     #[must_use]
-    pub fn with_integrator<J: Integrator>(self, integrator: J) -> Rollouts<T, L, J> {
+    pub fn with_integrator<J: Explicit>(self, integrator: J) -> Rollouts<T, L, J> {
         let Self { step, steps, every, lanes, .. } = self;
         Rollouts { step, steps, every, integrator, lanes }
     }
@@ -157,7 +157,7 @@ impl<T: Element, L, I> Rollouts<T, L, I> {
     }
 }
 
-impl<T: Element, L: Lanes<Element = T>, I: Integrator> Rollouts<T, L, I> {
+impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
     /// Computes all rollouts on this thread.
     ///
     /// `given` is what they differ in, a slice or a tuple of slices as in [`batch::map`](crate::batch::map); `rollout`

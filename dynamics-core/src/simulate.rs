@@ -23,7 +23,7 @@ pub use euler::SemiImplicitEuler;
 pub use event::{
     Arrival, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
 };
-pub use integrator::Integrator;
+pub use integrator::{Explicit, Integrator};
 pub use monitor::{EnergyMonitor, Momentum, MomentumMonitor};
 pub use rk4::Rk4;
 pub use sample::{Energy, Sample};

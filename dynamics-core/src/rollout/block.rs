@@ -8,7 +8,7 @@ use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::lanes::{Element, Lanes};
 use crate::scalar::Scalar;
-use crate::simulate::Integrator;
+use crate::simulate::Explicit;
 use crate::state::{Configuration, State};
 
 /// The most lanes that there are.
@@ -67,7 +67,7 @@ impl<T: Element> Soundness<'_, T> {
     }
 }
 
-impl<T: Element, L: Lanes<Element = T>, I: Integrator> Rollouts<T, L, I> {
+impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
     /// `Ok` if so many rollouts from the `first` on start from states.
     pub(super) fn check_starts<G, R, U, W, const NQ: usize, const NV: usize>(
         &self,
@@ -148,7 +148,9 @@ impl<T: Element, L: Lanes<Element = T>, I: Integrator> Rollouts<T, L, I> {
         let mut sample = 0;
         for k in 1..=self.steps {
             let time = L::from(clock.time);
-            state = self.integrator.step(&robot, time, &state, L::from(self.step), &mut input);
+            if let Ok(next) = self.integrator.step(&robot, time, &state, L::from(self.step), &mut input) {
+                state = next; // a step of an explicit method is never refused
+            }
             clock.tick();
             soundness.note(&state, clock.time);
             let is_sample = self.is_sample(k, self.every);

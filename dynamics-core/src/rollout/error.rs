@@ -5,7 +5,7 @@ use core::fmt;
 use crate::error::Error;
 
 /// Why rollouts were not begun. That one is lost on the way is no error: its time tells.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RolloutError {
     /// A slice of what is given is not as long as that of the times: [`Error::BatchLength`].

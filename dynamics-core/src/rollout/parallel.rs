@@ -7,13 +7,13 @@ use super::{Moment, Rollout, RolloutError, Rollouts};
 use crate::batch::{Pack, States};
 use crate::dynamics::Dynamics;
 use crate::lanes::{Element, Lanes};
-use crate::simulate::Integrator;
+use crate::simulate::Explicit;
 use crate::state::{Configuration, State};
 
 /// A task has at least so many steps of a block: a millisecond or so, beside which handing it over is little.
 const STEPS: usize = 2000;
 
-impl<T: Element + Send + Sync, L: Lanes<Element = T>, I: Integrator + Sync> Rollouts<T, L, I> {
+impl<T: Element + Send + Sync, L: Lanes<Element = T>, I: Explicit + Sync> Rollouts<T, L, I> {
     /// [`run`](Self::run) on all cores, by the thread pool of the crate `rayon`; the same bits, however many there are.
     ///
     /// Allocates where `rayon` does, which is once for the pool, and panics if it cannot start its threads.

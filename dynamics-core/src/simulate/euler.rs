@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::Integrator;
+use super::{Explicit, Integrator};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::scalar::Scalar;
@@ -14,6 +14,8 @@ use crate::state::{Configuration, State};
 /// error stays bounded; otherwise that holds approximately.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
+
+impl Explicit for SemiImplicitEuler {}
 
 impl Integrator for SemiImplicitEuler {
     const ORDER: u32 = 1;

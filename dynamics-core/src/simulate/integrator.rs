@@ -33,3 +33,7 @@ pub trait Integrator {
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
         T: Scalar;
 }
+
+/// An integrator whose steps cannot fail, and take the same operations whatever the numbers: in lanes each rollout has
+/// the bits that it has alone.
+pub trait Explicit: Integrator {}

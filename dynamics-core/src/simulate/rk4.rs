@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::Integrator;
+use super::{Explicit, Integrator};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::scalar::Scalar;
@@ -19,6 +19,8 @@ use crate::state::{Configuration, State};
 /// 19 (2003) 341–352, written for velocities in the body.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
+
+impl Explicit for Rk4 {}
 
 impl Integrator for Rk4 {
     const ORDER: u32 = 4;

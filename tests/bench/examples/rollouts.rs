@@ -10,6 +10,7 @@ use std::time::Instant;
 
 use dynamics_bench::industrial::iiwa14::Iiwa14;
 use dynamics_core::prelude::*;
+use dynamics_core::simulate::Explicit;
 use rayon::ThreadPoolBuilder;
 
 type Moving = State<f64, 7, 7>;
@@ -111,7 +112,7 @@ fn best(mut turn: impl FnMut()) -> f64 {
 
 /// The derived robot: one simulation after another, in lanes, and on all cores.
 fn generated(
-    integrator: impl Integrator + Copy + Sync,
+    integrator: impl Explicit + Copy + Sync,
     starts: &[Moving],
     threads: usize,
     results: &mut Vec<Result>,
