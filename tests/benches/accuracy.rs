@@ -34,7 +34,7 @@ macro_rules! chain {
             #[derive(Dynamics, Clone, Copy)]
             $($item)*
 
-            fn forms<T: Scalar + PartialOrd>() -> Forms<T> {
+            fn forms<T: Scalar + PartialOrd + Into<f64>>() -> Forms<T> {
                 let robot = || Box::new(specialised!([$($frame),*] [$name] T, $name));
                 Forms { robot: robot(), prepared: robot() }
             }

@@ -20,6 +20,9 @@ pub(super) struct Moment<T, const NQ: usize, const NV: usize> {
     pub(super) state: State<T, NQ, NV>,
 }
 
+/// A moment, and which events have happened then.
+pub(super) type Found<T, const NQ: usize, const NV: usize, const E: usize> = (Moment<T, NQ, NV>, [bool; E]);
+
 /// The first moment after `from` and up to `end` at which an event has happened, and which have.
 ///
 /// It lies behind the zero by rounding, so that the functions have their new signs there, and a search that goes on
@@ -30,7 +33,7 @@ pub(super) fn first<R, T, V, const NQ: usize, const NV: usize, const E: usize>(
     from: Moment<T, NQ, NV>,
     end: T,
     events: &[V; E],
-) -> Result<Option<(Moment<T, NQ, NV>, [bool; E])>, Error>
+) -> Result<Option<Found<T, NQ, NV, E>>, Error>
 where
     R: Configuration<T, NQ, NV>,
     T: Scalar + PartialOrd,
