@@ -1,4 +1,4 @@
-//! Five thousand arms that are not quite the one that was planned for: how far are they from their path, and what does
+//! A thousand arms that are not quite the one that was planned for: how far are they from their path, and what does
 //! it cost? Payload and friction are drawn; the rollouts run in lanes and on all cores.
 //!
 //! `cargo run --release --example monte_carlo`
@@ -25,9 +25,9 @@ struct Arm<T> {
     friction: T,
 }
 
-const COUNT: usize = 5000;
-const STEP: f64 = 1e-3;
-const STEPS: usize = 2000;
+const COUNT: usize = 1000;
+const STEP: f64 = 2e-3;
+const STEPS: usize = 1000;
 
 /// Where the arm should be at a time, how fast, and how much faster.
 fn path<T: Scalar>(time: T) -> [SVector<T, 2>; 3] {

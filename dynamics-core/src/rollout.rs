@@ -145,15 +145,15 @@ impl<T: Element, L, I> Rollouts<T, L, I> {
 
     /// The times of the samples, in s.
     pub fn times(&self) -> impl Iterator<Item = T> {
-        let (mut clock, every) = (block::Clock::new(self.step), self.every);
+        let mut clock = block::Clock::new(self.step);
         (1..=self.steps).filter_map(move |k| {
             clock.tick();
-            self.is_sample(k, every).then_some(clock.time)
+            self.is_sample(k).then_some(clock.time)
         })
     }
 
-    fn is_sample(&self, step: usize, every: usize) -> bool {
-        step == self.steps || step.is_multiple_of(every)
+    fn is_sample(&self, step: usize) -> bool {
+        step == self.steps || step.is_multiple_of(self.every)
     }
 }
 
@@ -193,7 +193,7 @@ impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
         W: FnMut(&Moment<'_, R, L, NQ, NV>) -> O::Packed<L>,
     {
         self.check_lengths(given, samples.len(), sound.len())?;
-        self.check_starts(given, 0, sound.len(), &rollout)?;
+        self.check_starts(given, sound.len(), &rollout)?;
         self.blocks(given, 0, samples, sound, &rollout);
         Ok(())
     }

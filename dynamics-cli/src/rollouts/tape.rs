@@ -280,7 +280,7 @@ mod tests {
         let x = |k| Source::Input(Input::Argument(Argument::Q, k));
         let mut steps = vec![];
         for signs in 0..8 {
-            let operand = |source, bit: u32| Operand { source, negative: signs >> bit & 1 == 1 };
+            let operand = |source, bit: u32| Operand { source, negative: (signs >> bit) & 1 == 1 };
             let last = |back: usize, or: Source, steps: &Vec<Step>| {
                 steps.len().checked_sub(back).map_or(or, Source::Step)
             };

@@ -68,11 +68,10 @@ impl<T: Element> Soundness<'_, T> {
 }
 
 impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
-    /// `Ok` if so many rollouts from the `first` on start from states.
+    /// `Ok` if so many rollouts start from states.
     pub(super) fn check_starts<G, R, U, W, const NQ: usize, const NV: usize>(
         &self,
         given: G,
-        first: usize,
         count: usize,
         rollout: &impl Fn(G::Packed<L>) -> Rollout<R, L, NQ, NV, U, W>,
     ) -> Result<(), RolloutError>
@@ -85,8 +84,8 @@ impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
             start.check()?;
             robot.check_configuration(&start.q)
         };
-        for block in (first..first + count).step_by(L::COUNT) {
-            let here = L::COUNT.min(first + count - block);
+        for block in (0..count).step_by(L::COUNT) {
+            let here = L::COUNT.min(count - block);
             if check(block, here).is_err() {
                 // One alone fills all lanes.
                 for k in block..block + here {
@@ -153,12 +152,11 @@ impl<T: Element, L: Lanes<Element = T>, I: Explicit> Rollouts<T, L, I> {
             }
             clock.tick();
             soundness.note(&state, clock.time);
-            let is_sample = self.is_sample(k, self.every);
+            let is_sample = self.is_sample(k);
             let moment = Moment { time: L::from(clock.time), state, robot: &robot, is_sample };
             let seen = observer(&moment);
             if is_sample {
-                let unpack = |seen, rows: &mut [&mut [O]]| unpack_at::<L, O>(seen, rows, sample);
-                unpack(&seen, &mut rows[..lanes]);
+                unpack_at::<L, O>(&seen, &mut rows[..lanes], sample);
                 sample += 1;
             }
         }

@@ -36,7 +36,7 @@ impl<T: Element + Send + Sync, L: Lanes<Element = T>, I: Explicit + Sync> Rollou
         W: FnMut(&Moment<'_, R, L, NQ, NV>) -> O::Packed<L>,
     {
         self.check_lengths(given, samples.len(), sound.len())?;
-        self.check_starts(given, 0, sound.len(), &rollout)?;
+        self.check_starts(given, sound.len(), &rollout)?;
         let task = L::COUNT * (STEPS / self.steps.max(1)).max(1);
         if self.samples() == 0 {
             self.blocks(given, 0, samples, sound, &rollout);
