@@ -81,8 +81,7 @@ pub(crate) fn svg(rows: &[Row]) -> String {
 fn line(text: &mut String, row: &Row, y: f64, place: impl Fn(f64) -> f64) {
     let places: Vec<f64> = row.nanoseconds.iter().flatten().map(|&time| place(time)).collect();
     let (left, right) = places.iter().fold((RIGHT, LEFT), |(a, b), &x| (a.min(x), b.max(x)));
-    let _ =
-        writeln!(text, r#"<text x="{}" y="{}" class="e">{}</text>"#, LEFT - 8.0, y + 4.0, row.output);
+    let _ = writeln!(text, r#"<text x="{}" y="{}" class="e">{}</text>"#, LEFT - 8.0, y + 4.0, row.output);
     let _ = writeln!(text, r##"<path d="M{left:.1} {y}H{right:.1}" class="line"/>"##);
     let bound = place(row.bound.operations).max(LEFT);
     let _ = writeln!(text, r##"<path d="M{bound:.1} {}v8" class="bound"/>"##, y - 4.0);
