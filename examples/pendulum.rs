@@ -43,6 +43,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     // Released at rest, then in steps of a millisecond by the method of Runge and Kutta.
     let mut simulation = Simulation::new(&pendulum, State::rest(q), 1e-3)?;
     let mut seen = Recording::of(&pendulum).with_masses();
+    seen.see(&simulation.sample());
     let before = simulation.sample().energy().total();
     println!("\nReleased at {theta} rad:\n  time, s   theta, rad   energy, J");
     for _ in 0..10 {

@@ -97,6 +97,7 @@ const OVERLAPS = `(() => {
   return found;
 })()`;
 const PICTURE = `document.getElementById("view").toDataURL()`;
+const SHOWN = `[...document.querySelectorAll("#toggles button")].map((button) => button.getAttribute("aria-pressed")).join()`;
 const CLOCK = `document.getElementById("clock").textContent`;
 
 async function checkChart(browser, file) {
@@ -131,7 +132,7 @@ async function checkFilm(browser, file) {
       await browser.mouse("mouseReleased", 280, 320);
     });
     await changes("the wheel", () => browser.mouse("mouseWheel", 200, 300, { deltaX: 0, deltaY: -300, button: "none", buttons: 0 }));
-    for (const key of ["m", "i", "a", "f"]) await changes(`the key ${key}`, () => browser.key(key, "Key" + key.toUpperCase()));
+    for (const key of ["m", "i", "a", "f"]) await changes(`the key ${key}`, () => browser.key(key, "Key" + key.toUpperCase()), SHOWN);
     await changes("the first view", () => browser.key("r", "KeyR"));
     const chart = `(() => { const c = document.querySelector("figure canvas"); return c && c.toDataURL(); })()`;
     if (await browser.value(chart)) await changes("a chart's cursor", () => browser.key("End"), chart);

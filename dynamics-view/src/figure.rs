@@ -100,7 +100,7 @@ impl Figure {
             return Err(Error::Empty { what: format!("the figure `{}`", self.title) });
         }
         self.charts.iter().try_for_each(Chart::check)?;
-        let left = self.charts.iter().map(|chart| tick_width(chart)).fold(0.0, f64::max) + EDGE + 8.0;
+        let left = self.charts.iter().map(tick_width).fold(0.0, f64::max) + EDGE + 8.0;
         let names = self.charts.iter().map(name_width).fold(0.0, f64::max);
         let right = WIDTH - if names > 0.0 { names + lines::LEADER + EDGE } else { EDGE + 8.0 };
 

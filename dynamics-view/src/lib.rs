@@ -4,7 +4,10 @@
 //! - A [`Film`] of a [`Scene`] becomes one HTML file that needs nothing else: the robot in three dimensions, to be
 //!   played, wound and turned, with its charts below.
 //!
+//! A [`Recording`] makes both of a robot of the derive.
+//!
 //! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
+//! `node dynamics-view/browser/check.mjs FILE…` tries pictures in a browser.
 
 mod chart;
 mod coordinates;

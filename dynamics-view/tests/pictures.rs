@@ -132,9 +132,18 @@ fn a_page_needs_nothing_else() {
     let angle = Chart::over_time("angle", "rad", &times(30)).line("<upper>", times(30));
     let film = film.with_charts([angle]).tracing("lower");
     let html = film.html().unwrap();
-    for outside in
-        ["http", "//www", "src=", "href=", "url(", "import ", "fetch(", "XMLHttpRequest", "WebSocket"]
-    {
+    for outside in [
+        "http:",
+        "https:",
+        "//www",
+        "src=",
+        "href=",
+        "url(",
+        "import ",
+        "fetch(",
+        "XMLHttpRequest",
+        "WebSocket",
+    ] {
         assert!(!html.contains(outside), "{outside}");
     }
     assert!(

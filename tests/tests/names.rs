@@ -188,5 +188,7 @@ robots! {
     an_error: Error;
     a_cost: Cost;
     a_clone: Clone;
+    a_list: EachFrame;
+    a_visitor: FrameVisitor;
     a_small_name: arm;
 }

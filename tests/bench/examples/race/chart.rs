@@ -10,9 +10,9 @@ const CONTESTANTS: [(&str, &str); 3] = [("Pinocchio", "p"), ("CasADi", "c"), ("o
 const STYLE: &str = "\
 svg{font:11px system-ui,sans-serif;fill:#1c2126;stroke:none}.paper{fill:#fff}.grid{stroke:#e6e9ec}.line{stroke:#b4bcc4}\
 .bound{stroke:#1c2126;stroke-width:1.5}.e{text-anchor:end}.m{text-anchor:middle}.r{font-weight:600}\
-.p{fill:#c04a00}.c{fill:#00795a}.o{fill:#0b62a8}
+.p{fill:#c04a00}.c{fill:#2f7550}.o{fill:#0443c2}
 @media(prefers-color-scheme:dark){svg{fill:#e8ebee}.paper{fill:#14181c}.grid{stroke:#2a3138}.line{stroke:#5a646e}\
-.bound{stroke:#e8ebee}.p{fill:#ff8c4d}.c{fill:#34c698}.o{fill:#58aef2}}";
+.bound{stroke:#e8ebee}.p{fill:#f58256}.c{fill:#3fe0a4}.o{fill:#5ba0ff}}";
 /// Where the scale begins and ends, and the first line; in pixels.
 const LEFT: f64 = 170.0;
 const RIGHT: f64 = 770.0;

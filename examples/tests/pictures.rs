@@ -1,0 +1,105 @@
+//! What a recording knows of a derived robot: its tree, its joints, its masses, and the charts that follow.
+
+use dynamics_core::prelude::*;
+use dynamics_view::{Measure, Motion, Recording};
+
+/// A body that floats, and on it an arm of a turn and a slide, whose tip is described before it.
+#[derive(Dynamics)]
+#[joint(base: free, world -> hull)]
+#[body(hull, mass = m, com = [0.1, 0, 0.2], inertia = diag(0.3, 0.4, 0.5))]
+#[joint(turn: revolute(y), hull -> arm, at = [0, 0.2, 0.3], rpy = [0.3, 0, 0])]
+#[joint(reach: prismatic(-x), arm -> fist, at = [0.4, 0, 0])]
+#[joint(tip: fixed, fist -> tip, at = [0.1, 0, 0])]
+#[body(fist, mass = 0.5, com = [0.02, 0, 0], inertia = diag(0.01, 0.02, 0.02))]
+#[body(arm, solid = rod(1.5, 0.4, x), com = [0.2, 0, 0])]
+struct Floating {
+    m: f64,
+}
+
+fn close(found: [f64; 3], expected: [f64; 3]) -> bool {
+    found.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-12)
+}
+
+#[test]
+fn joints_and_masses_are_those_that_were_written() {
+    let robot = Floating { m: 2.0 };
+    let seen = Recording::of(&robot).with_masses();
+    let film = seen.film();
+    let scene = film.scene();
+    let named = |name: &str| scene.bodies.iter().find(|body| body.name == name).expect("the body is there");
+    for (body, parent) in
+        [("hull", None), ("arm", Some("hull")), ("fist", Some("arm")), ("tip", Some("fist"))]
+    {
+        let found = named(body).parent.map(|parent| scene.bodies[parent].name.as_str());
+        assert_eq!(found, parent, "{body}");
+    }
+    let kinds = ["hull", "arm", "fist", "tip"]
+        .map(|body| (named(body).joint.name.as_str(), named(body).joint.kind.as_str()));
+    assert_eq!(kinds, [("base", "free"), ("turn", "revolute"), ("reach", "prismatic"), ("", "")]);
+    let [Motion::Turn { through, along }] = named("arm").joint.motions[..] else { panic!("the arm turns") };
+    assert!(close(through, [0.0; 3]) && close(along, [0.0, 1.0, 0.0]), "{through:?} {along:?}");
+    let [Motion::Slide { along }] = named("fist").joint.motions[..] else { panic!("the fist slides") };
+    assert!(close(along, [-1.0, 0.0, 0.0]), "{along:?}");
+    for (body, mass, com, inertia) in [
+        ("hull", 2.0, [0.1, 0.0, 0.2], [0.3, 0.4, 0.5]),
+        ("arm", 1.5, [0.2, 0.0, 0.0], [0.0, 0.02, 0.02]),
+        ("fist", 0.5, [0.02, 0.0, 0.0], [0.01, 0.02, 0.02]),
+    ] {
+        let found = named(body);
+        assert!((found.mass - mass).abs() < 1e-12 && close(found.com, com), "{found:?}");
+        for (i, row) in found.inertia.iter().enumerate() {
+            let expected = std::array::from_fn(|j| if i == j { inertia[i] } else { 0.0 });
+            assert!(close(*row, expected), "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn coordinates_have_their_names_and_places() {
+    let robot = Floating { m: 2.0 };
+    let seen = Recording::of(&robot);
+    let coordinates = seen.coordinates();
+    let free = &coordinates.loose[0];
+    assert_eq!((free.name.as_str(), free.q, free.v, free.is_free), ("base", 0, 0, true));
+    let single =
+        coordinates.single.iter().map(|c| (c.name.as_str(), c.q, c.v, c.measure)).collect::<Vec<_>>();
+    assert_eq!(single, [("turn", 7, 6, Measure::Angle), ("reach", 8, 7, Measure::Distance)]);
+}
+
+/// The visitor sees all frames, in the order of their names, as types.
+#[test]
+fn all_frames_are_shown() {
+    struct Names(Vec<&'static str>);
+    impl<R> FrameVisitor<R, f64, 9, 8> for Names {
+        fn visit<F: Frame<R, f64, 9, 8>>(&mut self) {
+            self.0.push(F::NAME);
+        }
+    }
+    let (robot, mut names) = (Floating { m: 2.0 }, Names(vec![]));
+    robot.each_frame(&mut names);
+    assert_eq!(names.0, Floating::BODY_NAMES);
+    names.0.clear();
+    robot.prepare().each_frame(&mut names);
+    assert_eq!(names.0, FloatingPrepared::BODY_NAMES);
+}
+
+#[test]
+fn a_flight_becomes_charts_and_a_film() -> Result<(), Box<dyn std::error::Error>> {
+    let robot = Floating { m: 2.0 };
+    let mut v = SVector::zeros();
+    (v[2], v[6]) = (3.0, 2.0);
+    let mut flight = Simulation::new(&robot, State::new(robot.neutral(), v), 1e-3)?;
+    let mut seen = Recording::of(&robot).with_masses();
+    seen.see(&flight.sample());
+    for sample in seen.watch(flight.steps(500)) {
+        sample?;
+    }
+    let svg = seen.figure("A flight").svg()?;
+    for text in ["position of base, m", "roll", "angle, rad", "distance, m", "energy, J"] {
+        assert!(svg.contains(text), "{text}");
+    }
+    assert!(seen.phase("turn").is_some() && seen.phase("base").is_none());
+    let html = seen.film().tracing("tip").html()?;
+    assert_eq!(html, seen.film().tracing("tip").html()?);
+    Ok(())
+}
