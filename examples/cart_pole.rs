@@ -2,6 +2,10 @@
 //!
 //! `cargo run --example cart_pole`
 
+use std::error;
+
+use dynamics_core::linear::place_poles;
+use dynamics_core::nalgebra::Complex;
 use dynamics_core::prelude::*;
 
 /// A cart of 1 kg that slides along x, and on it a rod of 0.1 kg and 1 m, upright at zero.
@@ -17,7 +21,7 @@ struct CartPole;
 /// The force on the cart `u = -K x` that puts all poles of the linear model between -2 and -3.5 1/s.
 const POLES: [f64; 4] = [-2.0, -2.5, -3.0, -3.5];
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn error::Error>> {
     // x = (slider, hinge, their speeds); the two inputs are the force on the cart and the torque at the hinge.
     let (upright, rest) = (SVector::from([0.0, 0.0]), SVector::zeros());
     let Linearization { a, b, drift } = CartPole.linearize(&upright, &rest, &SVector::zeros());
@@ -26,14 +30,15 @@ fn main() -> Result<(), Error> {
     let slope = a[(3, 1)];
     println!("Left alone it falls as exp({:.3} t).\n", slope.sqrt());
 
-    let gain = place_poles(&a, &b.column(0).into_owned(), POLES);
-    println!("Gains for poles at {POLES:?} 1/s: {:.3?}", gain.data.0[0]);
+    let desired = POLES.map(|pole| Complex::new(pole, 0.0));
+    let gain = place_poles(&a, &b.column(0).into_owned(), &desired)?.gain;
+    println!("Gains for poles at {POLES:?} 1/s: {:.3?}", gain.as_slice());
 
     // The whole nonlinear robot under that feedback, from 0.3 rad.
     let start = State::rest(SVector::from([0.0, 0.3]));
     let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(|_, state| {
         let x = SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
-        SVector::from([-gain.dot(&x), 0.0])
+        SVector::from([-(gain * x).x, 0.0])
     });
     println!("  time, s    cart, m   pole, rad");
     for _ in 0..8 {
@@ -41,14 +46,4 @@ fn main() -> Result<(), Error> {
         println!("{:9.1} {:10.5} {:11.6}", sample.time, sample.state.q[0], sample.state.q[1]);
     }
     Ok(())
-}
-
-/// Ackermann's formula, `K = [0 0 0 1]·[b Ab A²b A³b]⁻¹·Π(A − pᵢ)`.
-fn place_poles(a: &SMatrix<f64, 4, 4>, b: &SVector<f64, 4>, poles: [f64; 4]) -> SVector<f64, 4> {
-    let (ab, aab) = (a * b, a * a * b);
-    let controllability = SMatrix::<f64, 4, 4>::from_columns(&[*b, ab, aab, a * aab]);
-    let inverse = controllability.try_inverse().expect("a cart-pole is controllable");
-    let identity = SMatrix::<f64, 4, 4>::identity();
-    let polynomial = poles.iter().fold(identity, |product, pole| product * (a - identity * *pole));
-    (inverse * polynomial).row(3).transpose()
 }
