@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example cart_pole`, and in pictures `cargo run --example cart_pole -- --plot cart_pole.svg --animate cart_pole.html`
 
+use dynamics_core::linear::place_poles;
+use dynamics_core::nalgebra::Complex;
 use dynamics_core::prelude::*;
 use dynamics_examples::draw;
 use dynamics_view::{Chart, Figure, Plane, Recording};
@@ -28,14 +30,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let slope = a[(3, 1)];
     println!("Left alone it falls as exp({:.3} t).\n", slope.sqrt());
 
-    let gain = place_poles(&a, &b.column(0).into_owned(), POLES);
-    println!("Gains for poles at {POLES:?} 1/s: {:.3?}", gain.data.0[0]);
+    let desired = POLES.map(|pole| Complex::new(pole, 0.0));
+    let gain = place_poles(&a, &b.column(0).into_owned(), &desired)?.gain;
+    println!("Gains for poles at {POLES:?} 1/s: {:.3?}", gain.as_slice());
 
     // The whole nonlinear robot under that feedback, from 0.3 rad.
     let start = State::rest(SVector::from([0.0, 0.3]));
     let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(|_, state| {
         let x = SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
-        SVector::from([-gain.dot(&x), 0.0])
+        SVector::from([-(gain * x).x, 0.0])
     });
     let mut seen = Recording::of(&CartPole).with_masses();
     seen.see(&simulation.sample());
@@ -46,20 +49,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     }
 
     let poles = |a: SMatrix<f64, 4, 4>| a.complex_eigenvalues().data.0[0].map(|pole| [pole.re, pole.im]);
-    let closed = a - b.column(0) * gain.transpose();
+    let closed = a - b.column(0) * gain;
     let planes = Chart::poles(Plane::Continuous).set("alone", poles(a)).set("with feedback", poles(closed));
     draw(
         || Figure::new("A cart-pole that balances").with_all(seen.charts()).with(planes.clone()),
         || seen.film().tracing("pole"),
     )
-}
-
-/// Ackermann's formula, `K = [0 0 0 1]·[b Ab A²b A³b]⁻¹·Π(A − pᵢ)`.
-fn place_poles(a: &SMatrix<f64, 4, 4>, b: &SVector<f64, 4>, poles: [f64; 4]) -> SVector<f64, 4> {
-    let (ab, aab) = (a * b, a * a * b);
-    let controllability = SMatrix::<f64, 4, 4>::from_columns(&[*b, ab, aab, a * aab]);
-    let inverse = controllability.try_inverse().expect("a cart-pole is controllable");
-    let identity = SMatrix::<f64, 4, 4>::identity();
-    let polynomial = poles.iter().fold(identity, |product, pole| product * (a - identity * *pole));
-    (inverse * polynomial).row(3).transpose()
 }
