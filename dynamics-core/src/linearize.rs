@@ -30,7 +30,7 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
     ///
     /// # Cost
     ///
-    /// One `forward_dynamics_derivatives`, one `forward_dynamics`, two products of size NV×NV×NU.
+    /// One `forward_dynamics_with_derivatives`, two products of size NV×NV×NU.
     fn linearize(
         &self,
         q: &SVector<T, NQ>,
@@ -40,9 +40,8 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
         const { assert!(NX == 2 * NV, "the state x = (q, v) has 2·NV entries") };
         let input_map = self.input_map();
         let tau = product(&input_map, u);
-        let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } =
-            self.forward_dynamics_derivatives(q, v, &tau);
-        let acceleration = self.forward_dynamics(q, v, &tau);
+        let (acceleration, ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau }) =
+            self.forward_dynamics_with_derivatives(q, v, &tau);
 
         let mut linearization =
             Linearization { a: SMatrix::zeros(), b: SMatrix::zeros(), drift: SVector::zeros() };

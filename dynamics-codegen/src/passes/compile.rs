@@ -75,6 +75,8 @@ pub struct CompiledMethod<'g> {
     pub plan: Plan<'g>,
     /// Its operations.
     pub cost: Cost,
+    /// The bundle that is called for it, and of which it keeps all but the first block: one text for both.
+    pub part_of: Option<Method>,
 }
 
 /// Compiles `methods` of `model`.
@@ -83,7 +85,9 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
     let plan = Plans::of(model);
-    let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
+    let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
+    let part_of = |method: Method| method.bundle().filter(|&bundle| is_straight(bundle));
+    let straight = methods.iter().copied().filter(|&method| is_straight(method) && part_of(method).is_none());
     let mut normaliser = Normaliser::new(graph);
     let equations: Vec<Equation<'g>> = straight
         .map(|method| Equation { method, blocks: cheapest(&derivation, method, &mut normaliser) })
@@ -95,12 +99,16 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let inputs = derivation.inputs;
     let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
-    let mut equations = equations.into_iter();
+    let blocks_of = |method: Method| -> Vec<Block<'g>> {
+        let of = |method| equations.iter().find(|equation| equation.method == method);
+        let (bundle, first) = part_of(method).map_or((method, 0), |bundle| (bundle, 1));
+        of(bundle).map(|equation| equation.blocks[first..].to_vec()).unwrap_or_default()
+    };
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
     for &method in methods {
         let (plan, cost) = match plan.form(method) {
             Form::StraightLine => {
-                let blocks = equations.next().map(|equation| equation.blocks).unwrap_or_default();
+                let blocks = blocks_of(method);
                 let program = program_of(&entries(&blocks));
                 let cost = program.cost();
                 (Plan::StraightLine { blocks, program }, cost)
@@ -114,7 +122,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 (Plan::Table { frame, in_lanes: form == Form::Lanes }, plan.cost_of_table(method))
             }
         };
-        compiled.push(CompiledMethod { method, cost, plan });
+        compiled.push(CompiledMethod { method, cost, plan, part_of: part_of(method) });
     }
     let table = table.map(|entries| program_of(&entries));
     let names = |columns: &[RegressorColumn<Expr<'g>>]| columns.iter().map(|c| c.name.clone()).collect();
@@ -135,15 +143,16 @@ fn cost_of_loops(method: Method, dof: usize, compiled: &[CompiledMethod<'_>]) ->
     let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
     // A factorisation and the inverse of the factor are a sixth of n³ each, and half of it each product with the factor:
     // one of them for M⁻¹, two for each matrix that is solved for.
-    let sixths = match method {
-        Method::InverseMassMatrix => 2 + 3,
-        _ => 2 + 3 + 12,
+    let (sixths, divisions) = match method {
+        Method::InverseDynamicsWithDerivatives => (0, 0),
+        Method::InverseMassMatrix => (2 + 3, dof),
+        _ => (2 + 3 + 12, dof),
     };
     let of_products = count(sixths * dof * dof * dof / 6);
     let mut cost = Cost {
         multiplications: of_products,
         additions: of_products,
-        divisions: count(dof),
+        divisions: count(divisions),
         ..Cost::default()
     };
     for &part in calls(method) {

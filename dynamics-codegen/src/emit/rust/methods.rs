@@ -23,7 +23,7 @@ pub(super) fn write(
     scalar: &str,
     robot: &str,
 ) -> Written {
-    let CompiledMethod { method, plan, cost } = compiled;
+    let CompiledMethod { method, plan, cost, part_of } = compiled;
     let mut text = String::new();
     let _ = writeln!(text, "    /// {}", headline(*method, context.sizes.inputs.dof));
     let operations = describe(*cost);
@@ -34,18 +34,19 @@ pub(super) fn write(
         }
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
-    match plan {
-        Plan::StraightLine { blocks, program } => {
-            text.push_str(&straight_line(*method, blocks, program, context, scalar, robot));
+    text.push_str(&match (plan, part_of) {
+        (_, Some(bundle)) => by_bundle(*method, *bundle, scalar, context.sizes),
+        (Plan::StraightLine { blocks, program }, None) => {
+            straight_line(*method, blocks, program, context, scalar, robot)
         }
-        Plan::Loops => text.push_str(&by_loops(*method, scalar, context.sizes)),
-        Plan::Table { frame: None, in_lanes } => {
-            text.push_str(&by_table(*method, *in_lanes, scalar, context.sizes));
+        (Plan::Loops, None) => by_loops(*method, scalar, context.sizes),
+        (Plan::Table { frame: None, in_lanes }, None) => {
+            by_table(*method, *in_lanes, scalar, context.sizes)
         }
-        Plan::Table { frame: Some((link, program)), .. } => {
-            text.push_str(&frame_by_table(*method, *link, program, context, scalar, robot));
+        (Plan::Table { frame: Some((link, program)), .. }, None) => {
+            frame_by_table(*method, *link, program, context, scalar, robot)
         }
-    }
+    });
     Written { method: *method, cost: *cost, text }
 }
 
@@ -73,6 +74,18 @@ fn straight_line(
     text.push_str(&result(method, blocks, &body));
     text.push_str("    }\n");
     text
+}
+
+/// The body that calls a bundle, and keeps what belongs to the method.
+fn by_bundle(method: Method, bundle: Method, scalar: &str, sizes: Sizes) -> String {
+    format!(
+        "    #[inline]\n    fn {}(&self{}) -> {} {{\n        self.{}({}).1\n    }}\n",
+        method.name(),
+        typed_arguments(method, scalar, sizes),
+        return_type(method, scalar, sizes),
+        bundle.name(),
+        pass_on(method)
+    )
 }
 
 /// The body that leaves everything to the run time's recursion.
@@ -122,6 +135,14 @@ fn by_loops(method: Method, scalar: &str, sizes: Sizes) -> String {
     let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
     let body = match method {
         Method::InverseMassMatrix => "        inverse_of(&self.mass_matrix(q))\n",
+        Method::InverseDynamicsWithDerivatives => {
+            "        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))\n"
+        }
+        Method::ForwardDynamicsWithDerivatives => {
+            "        let a = self.forward_dynamics(q, v, tau);\n        \
+             let derivatives = forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a));\n        \
+             (a, derivatives)\n"
+        }
         _ => {
             "        let a = self.forward_dynamics(q, v, tau);\n        \
              forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a))\n"
@@ -178,6 +199,12 @@ pub(super) fn return_type(method: Method, scalar: &str, sizes: Sizes) -> String 
         Method::EquationsOfMotion => format!("EquationsOfMotion<{scalar}, {n}>"),
         Method::InverseDynamicsDerivatives => format!("InverseDynamicsDerivatives<{scalar}, {n}>"),
         Method::ForwardDynamicsDerivatives => format!("ForwardDynamicsDerivatives<{scalar}, {n}>"),
+        Method::InverseDynamicsWithDerivatives => {
+            format!("(SVector<{scalar}, {n}>, InverseDynamicsDerivatives<{scalar}, {n}>)")
+        }
+        Method::ForwardDynamicsWithDerivatives => {
+            format!("(SVector<{scalar}, {n}>, ForwardDynamicsDerivatives<{scalar}, {n}>)")
+        }
         Method::Pose(_) => format!("Pose<{scalar}>"),
         Method::Jacobian(_) | Method::WorldJacobian(_) => format!("SMatrix<{scalar}, 6, {n}>"),
         Method::TotalMass => scalar.to_owned(),
@@ -211,6 +238,12 @@ fn headline(method: Method, n: usize) -> String {
         Method::EquationsOfMotion => "`M(q)`, `C(q,v)` and `G(q)` in one.".to_owned(),
         Method::InverseDynamicsDerivatives => "`∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`.".to_owned(),
         Method::ForwardDynamicsDerivatives => "`∂a/∂q`, `∂a/∂v` and `∂a/∂τ = M⁻¹`.".to_owned(),
+        Method::InverseDynamicsWithDerivatives => {
+            "`τ`, and `∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`, in one.".to_owned()
+        }
+        Method::ForwardDynamicsWithDerivatives => {
+            "`a`, and `∂a/∂q`, `∂a/∂v` and `∂a/∂τ = M⁻¹`, in one.".to_owned()
+        }
         Method::TotalMass => "The mass of all that moves, kg.".to_owned(),
         Method::CenterOfMass => "The centre of mass in the world, m.".to_owned(),
         Method::CenterOfMassJacobian => format!("The Jacobian of the centre of mass: 3×{n}."),
@@ -301,16 +334,31 @@ fn result(method: Method, blocks: &[Block<'_>], body: &Body) -> String {
     };
     let structure = match method {
         Method::EquationsOfMotion => "EquationsOfMotion",
-        Method::InverseDynamicsDerivatives => "InverseDynamicsDerivatives",
-        Method::ForwardDynamicsDerivatives => "ForwardDynamicsDerivatives",
+        Method::InverseDynamicsDerivatives | Method::InverseDynamicsWithDerivatives => {
+            "InverseDynamicsDerivatives"
+        }
+        Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
+            "ForwardDynamicsDerivatives"
+        }
         Method::Pose(_) => "Pose",
         _ => return format!("        {}\n", block_text(&blocks[0], 2)),
     };
-    let mut text = format!("        {structure} {{\n");
-    for block in blocks {
-        let _ = writeln!(text, "            {}: {},", block.name, block_text(block, 3));
+    // A bundle is its first block and a structure of the others.
+    let is_bundle =
+        matches!(method, Method::InverseDynamicsWithDerivatives | Method::ForwardDynamicsWithDerivatives);
+    let (first, blocks) = blocks.split_at(usize::from(is_bundle));
+    let indent = 2 + first.len();
+    let pad = "    ".repeat(indent);
+    let mut text = String::new();
+    for block in first {
+        let _ = writeln!(text, "        (\n{pad}{},", block_text(block, indent));
     }
-    text.push_str("        }\n");
+    let _ = writeln!(text, "{pad}{structure} {{");
+    for block in blocks {
+        let _ = writeln!(text, "{pad}    {}: {},", block.name, block_text(block, indent + 1));
+    }
+    text.push_str(&pad);
+    text.push_str(if is_bundle { "},\n        )\n" } else { "}\n" });
     text
 }
 
