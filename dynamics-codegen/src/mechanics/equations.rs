@@ -16,6 +16,7 @@ use super::normal::NormalTree;
 use super::passive;
 use super::regressor::{Regressed, RegressorColumn};
 use super::regroup::regroup;
+use super::rest::rest;
 use super::rnea;
 use super::unit;
 use crate::model::Model;
@@ -97,6 +98,11 @@ impl<'g> Derivation<'g> {
     /// The same derivation in another unit of length.
     pub fn in_unit(&self, length: Number) -> Self {
         Self { dynamic: unit::in_unit(&self.dynamic, length), ..self.clone() }
+    }
+
+    /// The same derivation in frames that stay behind some links, if that can be less for anything.
+    pub fn at_rest(&self) -> Option<Self> {
+        Some(Self { dynamic: rest(&self.dynamic, &self.q)?, ..self.clone() })
     }
 
     /// What a method returns, derived in one or more ways of which the cheapest may be taken.

@@ -199,11 +199,17 @@ impl Method {
         }
     }
 
-    /// The bundle of which the method gives a part: all of it but the first block.
-    pub fn bundle(self) -> Option<Method> {
+    /// Of a bundle, and of the method that gives all of it but the first block: the one and the other.
+    pub fn bundle_and_part(self) -> Option<[Method; 2]> {
+        use Method::{ForwardDynamicsDerivatives, ForwardDynamicsWithDerivatives};
+        use Method::{InverseDynamicsDerivatives, InverseDynamicsWithDerivatives};
         match self {
-            Method::InverseDynamicsDerivatives => Some(Method::InverseDynamicsWithDerivatives),
-            Method::ForwardDynamicsDerivatives => Some(Method::ForwardDynamicsWithDerivatives),
+            InverseDynamicsWithDerivatives | InverseDynamicsDerivatives => {
+                Some([InverseDynamicsWithDerivatives, InverseDynamicsDerivatives])
+            }
+            ForwardDynamicsWithDerivatives | ForwardDynamicsDerivatives => {
+                Some([ForwardDynamicsWithDerivatives, ForwardDynamicsDerivatives])
+            }
             _ => None,
         }
     }
@@ -283,6 +289,11 @@ impl Trait {
         Trait::Regressor,
         Trait::BaseRegressor,
     ];
+
+    /// Whether its methods take the robot's mass for forces and energies, and not as parameters or as a whole.
+    pub fn is_of_forces(self) -> bool {
+        matches!(self, Trait::Dynamics | Trait::DynamicsDerivatives)
+    }
 
     /// The name in the run time.
     pub fn name(self) -> &'static str {

@@ -75,8 +75,8 @@ pub struct CompiledMethod<'g> {
     pub plan: Plan<'g>,
     /// Its operations.
     pub cost: Cost,
-    /// The bundle that is called for it, and of which it keeps all but the first block: one text for both.
-    pub part_of: Option<Method>,
+    /// The bundle whose body it shares, being that bundle or all but the first block of it.
+    pub shares: Option<Method>,
 }
 
 /// Compiles `methods` of `model`.
@@ -84,25 +84,35 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let derivation = Derivation::of(model, graph);
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
+    let at_rest = derivation.at_rest();
+    let inputs = derivation.inputs;
     let plan = Plans::of(model);
     let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
-    let part_of = |method: Method| method.bundle().filter(|&bundle| is_straight(bundle));
-    let straight = methods.iter().copied().filter(|&method| is_straight(method) && part_of(method).is_none());
+    let shares = |method: Method| {
+        let both = method.bundle_and_part().filter(|_| inputs.dof > LARGEST_TO_SHARE_TWICE)?;
+        both.into_iter().all(is_straight).then_some(both[0])
+    };
+    let has_own = |method: Method| shares(method).is_none_or(|bundle| bundle == method);
+    let straight = methods.iter().copied().filter(|&method| is_straight(method) && has_own(method));
     let mut normaliser = Normaliser::new(graph);
     let equations: Vec<Equation<'g>> = straight
-        .map(|method| Equation { method, blocks: cheapest(&derivation, method, &mut normaliser) })
+        .map(|method| {
+            let at_rest = at_rest.as_ref().filter(|_| method.trait_().is_of_forces());
+            let derivations = std::iter::once(&derivation).chain(at_rest);
+            Equation { method, blocks: cheapest(derivations, method, &mut normaliser) }
+        })
         .collect();
     let table = methods
         .iter()
         .any(|&method| matches!(plan.form(method), Form::Table | Form::Lanes))
         .then(|| table::entries(model));
-    let inputs = derivation.inputs;
     let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
     let blocks_of = |method: Method| -> Vec<Block<'g>> {
         let of = |method| equations.iter().find(|equation| equation.method == method);
-        let (bundle, first) = part_of(method).map_or((method, 0), |bundle| (bundle, 1));
-        of(bundle).map(|equation| equation.blocks[first..].to_vec()).unwrap_or_default()
+        let owner = shares(method).unwrap_or(method);
+        let first = usize::from(owner != method);
+        of(owner).map(|equation| equation.blocks[first..].to_vec()).unwrap_or_default()
     };
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
     for &method in methods {
@@ -122,7 +132,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 (Plan::Table { frame, in_lanes: form == Form::Lanes }, plan.cost_of_table(method))
             }
         };
-        compiled.push(CompiledMethod { method, cost, plan, part_of: part_of(method) });
+        compiled.push(CompiledMethod { method, cost, plan, shares: shares(method) });
     }
     let table = table.map(|entries| program_of(&entries));
     let names = |columns: &[RegressorColumn<Expr<'g>>]| columns.iter().map(|c| c.name.clone()).collect();
@@ -177,23 +187,22 @@ fn best_unit(derivation: &Derivation<'_>) -> Number {
 }
 
 /// The cheapest way to compute a method's result, simplified.
-fn cheapest<'g>(
-    derivation: &Derivation<'g>,
+fn cheapest<'d, 'g: 'd>(
+    derivations: impl Iterator<Item = &'d Derivation<'g>>,
     method: Method,
     normaliser: &mut Normaliser<'g>,
 ) -> Vec<Block<'g>> {
-    let graph = derivation.graph;
+    let mut derivations = derivations.peekable();
+    let Some(&&Derivation { graph, inputs, .. }) = derivations.peek() else { return vec![] };
     let is_free = |node| graph.is_parameter_only(node);
     let cost = |blocks: &Vec<Block<'g>>| arithmetic(graph, &entries(blocks), is_free);
     let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
-    for blocks in derivation.alternatives(method) {
+    for blocks in derivations.flat_map(|derivation| derivation.alternatives(method)) {
         let entries = entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
         plain.push(with_entries(&blocks, entries));
     }
-    if derivation.inputs.dof > MOST_TO_SHARE_EACH {
-        plain.sort_by_key(cost);
-        plain.truncate(1);
-    }
+    plain.sort_by_key(cost);
+    plain.truncate(if inputs.dof > LARGEST_TO_SHARE_TWICE { 1 } else { 2 });
     let simplified = plain.into_iter().flat_map(|blocks| {
         let shared = share(graph, &entries(&blocks), is_free);
         [with_entries(&blocks, shared), blocks]
@@ -201,8 +210,9 @@ fn cheapest<'g>(
     simplified.min_by_key(cost).unwrap_or_default()
 }
 
-/// The largest robot of which every alternative is simplified before the cheapest is chosen.
-const MOST_TO_SHARE_EACH: usize = 3;
+/// The largest robot of which two alternatives are simplified before the cheapest is chosen, and of which derivatives
+/// have a body of their own beside that with the value.
+const LARGEST_TO_SHARE_TWICE: usize = 3;
 
 /// All entries of the blocks, in order.
 pub fn entries<'g>(blocks: &[Block<'g>]) -> Vec<Expr<'g>> {

@@ -89,12 +89,10 @@ impl Plans {
             _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.ancestors.len() >= fewest) => {
                 Form::Lanes
             }
-            Method::InverseDynamicsWithDerivatives => {
-                match self.form(Method::InverseDynamicsDerivatives) {
-                    Form::StraightLine => Form::StraightLine,
-                    _ => Form::Loops,
-                }
-            }
+            Method::InverseDynamicsWithDerivatives => match self.form(Method::InverseDynamicsDerivatives) {
+                Form::StraightLine => Form::StraightLine,
+                _ => Form::Loops,
+            },
             _ if too_long => Form::Table,
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives
                 if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE =>

@@ -14,6 +14,8 @@ pub(super) struct Written {
     pub(super) cost: Cost,
     /// Its text at the indentation of an impl's item.
     pub(super) text: String,
+    /// The body that a bundle and its part share.
+    pub(super) shared: Option<String>,
 }
 
 /// Writes a method; `scalar` is the name of its scalar type, `robot` that of the type it is a method of.
@@ -23,7 +25,7 @@ pub(super) fn write(
     scalar: &str,
     robot: &str,
 ) -> Written {
-    let CompiledMethod { method, plan, cost, part_of } = compiled;
+    let CompiledMethod { method, plan, cost, shares } = compiled;
     let mut text = String::new();
     let _ = writeln!(text, "    /// {}", headline(*method, context.sizes.inputs.dof));
     let operations = describe(*cost);
@@ -34,20 +36,25 @@ pub(super) fn write(
         }
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
-    text.push_str(&match (plan, part_of) {
-        (_, Some(bundle)) => by_bundle(*method, *bundle, scalar, context.sizes),
-        (Plan::StraightLine { blocks, program }, None) => {
-            straight_line(*method, blocks, program, context, scalar, robot)
+    let mut shared = None;
+    text.push_str(&match plan {
+        Plan::StraightLine { blocks, program } => {
+            let body = || straight_line(*method, blocks, program, context, scalar, robot);
+            match *shares {
+                None => body(),
+                Some(bundle) => {
+                    shared = (bundle == *method).then(body);
+                    by_shared(*method, bundle, scalar, context.sizes)
+                }
+            }
         }
-        (Plan::Loops, None) => by_loops(*method, scalar, context.sizes),
-        (Plan::Table { frame: None, in_lanes }, None) => {
-            by_table(*method, *in_lanes, scalar, context.sizes)
-        }
-        (Plan::Table { frame: Some((link, program)), .. }, None) => {
+        Plan::Loops => by_loops(*method, scalar, context.sizes),
+        Plan::Table { frame: None, in_lanes } => by_table(*method, *in_lanes, scalar, context.sizes),
+        Plan::Table { frame: Some((link, program)), .. } => {
             frame_by_table(*method, *link, program, context, scalar, robot)
         }
     });
-    Written { method: *method, cost: *cost, text }
+    Written { method: *method, cost: *cost, text, shared }
 }
 
 fn straight_line(
@@ -76,14 +83,26 @@ fn straight_line(
     text
 }
 
-/// The body that calls a bundle, and keeps what belongs to the method.
-fn by_bundle(method: Method, bundle: Method, scalar: &str, sizes: Sizes) -> String {
+/// Whether the method gives a value and its derivatives.
+fn is_bundle(method: Method) -> bool {
+    matches!(method, Method::InverseDynamicsWithDerivatives | Method::ForwardDynamicsWithDerivatives)
+}
+
+/// What the body is called that a bundle shares with its part. It is inlined into both: a copy of so many numbers that
+/// were just written takes a third of the time that computing them does.
+pub(super) fn shared_name(bundle: Method) -> String {
+    format!("__{}", bundle.name())
+}
+
+/// The body that calls the shared one, and drops the value if it is not asked for.
+fn by_shared(method: Method, bundle: Method, scalar: &str, sizes: Sizes) -> String {
+    let part = if method == bundle { "" } else { ".1" };
     format!(
-        "    #[inline]\n    fn {}(&self{}) -> {} {{\n        self.{}({}).1\n    }}\n",
+        "    fn {}(&self{}) -> {} {{\n        self.{}({}){part}\n    }}\n",
         method.name(),
         typed_arguments(method, scalar, sizes),
         return_type(method, scalar, sizes),
-        bundle.name(),
+        shared_name(bundle),
         pass_on(method)
     )
 }
@@ -344,9 +363,7 @@ fn result(method: Method, blocks: &[Block<'_>], body: &Body) -> String {
         _ => return format!("        {}\n", block_text(&blocks[0], 2)),
     };
     // A bundle is its first block and a structure of the others.
-    let is_bundle =
-        matches!(method, Method::InverseDynamicsWithDerivatives | Method::ForwardDynamicsWithDerivatives);
-    let (first, blocks) = blocks.split_at(usize::from(is_bundle));
+    let (first, blocks) = blocks.split_at(usize::from(is_bundle(method)));
     let indent = 2 + first.len();
     let pad = "    ".repeat(indent);
     let mut text = String::new();
@@ -358,7 +375,7 @@ fn result(method: Method, blocks: &[Block<'_>], body: &Body) -> String {
         let _ = writeln!(text, "{pad}    {}: {},", block.name, block_text(block, indent + 1));
     }
     text.push_str(&pad);
-    text.push_str(if is_bundle { "},\n        )\n" } else { "}\n" });
+    text.push_str(if is_bundle(method) { "},\n        )\n" } else { "}\n" });
     text
 }
 
