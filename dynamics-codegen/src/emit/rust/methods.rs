@@ -89,7 +89,7 @@ fn is_bundle(method: Method) -> bool {
 }
 
 /// What the body is called that a bundle shares with its part. It is inlined into both: a copy of so many numbers that
-/// were just written takes a third of the time that computing them does.
+/// were just written takes a third to a half of the time that computing them does.
 pub(super) fn shared_name(bundle: Method) -> String {
     format!("__{}", bundle.name())
 }
