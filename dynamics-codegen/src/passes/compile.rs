@@ -89,7 +89,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let plan = Plans::of(model);
     let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
     let shares = |method: Method| {
-        let both = method.bundle_and_part().filter(|_| inputs.dof > LARGEST_TO_SHARE_TWICE)?;
+        let both = method.bundle_and_part().filter(|_| inputs.dof > LARGEST_TO_SHARE_ALL)?;
         both.into_iter().all(is_straight).then_some(both[0])
     };
     let has_own = |method: Method| shares(method).is_none_or(|bundle| bundle == method);
@@ -202,7 +202,7 @@ fn cheapest<'d, 'g: 'd>(
         plain.push(with_entries(&blocks, entries));
     }
     plain.sort_by_key(cost);
-    plain.truncate(if inputs.dof > LARGEST_TO_SHARE_TWICE { 1 } else { 2 });
+    plain.truncate(if inputs.dof > LARGEST_TO_SHARE_ALL { 1 } else { plain.len() });
     let simplified = plain.into_iter().flat_map(|blocks| {
         let shared = share(graph, &entries(&blocks), is_free);
         [with_entries(&blocks, shared), blocks]
@@ -210,9 +210,9 @@ fn cheapest<'d, 'g: 'd>(
     simplified.min_by_key(cost).unwrap_or_default()
 }
 
-/// The largest robot of which two alternatives are simplified before the cheapest is chosen, and of which derivatives
+/// The largest robot of which all alternatives are simplified before the cheapest is chosen, and of which derivatives
 /// have a body of their own beside that with the value.
-const LARGEST_TO_SHARE_TWICE: usize = 3;
+const LARGEST_TO_SHARE_ALL: usize = 3;
 
 /// All entries of the blocks, in order.
 pub fn entries<'g>(blocks: &[Block<'g>]) -> Vec<Expr<'g>> {
