@@ -202,7 +202,9 @@ fn cheapest<'d, 'g: 'd>(
         plain.push(with_entries(&blocks, entries));
     }
     plain.sort_by_key(cost);
-    plain.truncate(if inputs.dof > LARGEST_TO_SHARE_ALL { 1 } else { plain.len() });
+    if inputs.dof > LARGEST_TO_SHARE_ALL {
+        plain.truncate(1);
+    }
     let simplified = plain.into_iter().flat_map(|blocks| {
         let shared = share(graph, &entries(&blocks), is_free);
         [with_entries(&blocks, shared), blocks]
