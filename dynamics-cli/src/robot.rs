@@ -181,6 +181,8 @@ impl<'g> Robot<'g> {
             Method::Velocity(frame) => oracle.velocity(frame, q, v),
             Method::Acceleration(frame) => oracle.acceleration(frame, q, v, a),
             Method::EquationsOfMotion
+            | Method::InverseDynamicsWithDerivatives
+            | Method::ForwardDynamicsWithDerivatives
             | Method::Regressor
             | Method::InertialParameters
             | Method::BaseRegressor

@@ -202,6 +202,39 @@ pub trait DynamicsDerivatives<T: Scalar, const NQ: usize, const NV: usize>: Dyna
         v: &SVector<T, NV>,
         tau: &SVector<T, NV>,
     ) -> ForwardDynamicsDerivatives<T, NV>;
+
+    /// `τ` and its derivatives in one: [`inverse_dynamics`](Dynamics::inverse_dynamics), and
+    /// [`inverse_dynamics_derivatives`](Self::inverse_dynamics_derivatives), `M(q)` being one of them.
+    ///
+    /// # Cost
+    ///
+    /// As provided, that of both. In generated code little more than that of the derivatives, which compute the forces
+    /// on their way.
+    #[inline]
+    fn inverse_dynamics_with_derivatives(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        a: &SVector<T, NV>,
+    ) -> (SVector<T, NV>, InverseDynamicsDerivatives<T, NV>) {
+        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))
+    }
+
+    /// `a` and its derivatives in one: [`forward_dynamics`](Dynamics::forward_dynamics), and
+    /// [`forward_dynamics_derivatives`](Self::forward_dynamics_derivatives), `M(q)⁻¹` being one of them.
+    ///
+    /// # Cost
+    ///
+    /// As provided, that of both. In generated code that of the derivatives, which begin with the acceleration.
+    #[inline]
+    fn forward_dynamics_with_derivatives(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> (SVector<T, NV>, ForwardDynamicsDerivatives<T, NV>) {
+        (self.forward_dynamics(q, v, tau), self.forward_dynamics_derivatives(q, v, tau))
+    }
 }
 
 /// `M(q)`, `C(q,v)` and `G(q)` at one state.

@@ -34,7 +34,7 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
     ///
     /// # Cost
     ///
-    /// One `forward_dynamics_derivatives`, one `forward_dynamics`, two products of size NV×NV×NU.
+    /// One `forward_dynamics_with_derivatives`, two products of size NV×NV×NU.
     fn linearize(
         &self,
         q: &SVector<T, NQ>,
@@ -44,8 +44,7 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
         const { assert!(NX == 2 * NV, "the state x = (q, v) has 2·NV entries") };
         let input_map = self.input_map();
         let tau = product(&input_map, u);
-        let derivatives = self.forward_dynamics_derivatives(q, v, &tau);
-        let acceleration = self.forward_dynamics(q, v, &tau);
+        let (acceleration, derivatives) = self.forward_dynamics_with_derivatives(q, v, &tau);
         assembled(v, &acceleration, &derivatives, &self.tangent_rate(v), &input_map)
     }
 

@@ -190,8 +190,12 @@ pub struct Costs {
     pub equations_of_motion: Cost,
     /// Of [`inverse_dynamics_derivatives`](crate::DynamicsDerivatives::inverse_dynamics_derivatives).
     pub inverse_dynamics_derivatives: Cost,
+    /// Of [`inverse_dynamics_with_derivatives`](crate::DynamicsDerivatives::inverse_dynamics_with_derivatives).
+    pub inverse_dynamics_with_derivatives: Cost,
     /// Of [`forward_dynamics_derivatives`](crate::DynamicsDerivatives::forward_dynamics_derivatives).
     pub forward_dynamics_derivatives: Cost,
+    /// Of [`forward_dynamics_with_derivatives`](crate::DynamicsDerivatives::forward_dynamics_with_derivatives).
+    pub forward_dynamics_with_derivatives: Cost,
     /// Of [`total_mass`](crate::CentroidalDynamics::total_mass).
     pub total_mass: Cost,
     /// Of [`center_of_mass`](crate::CentroidalDynamics::center_of_mass).
@@ -231,7 +235,9 @@ impl Costs {
         lagrangian: Cost::ZERO,
         equations_of_motion: Cost::ZERO,
         inverse_dynamics_derivatives: Cost::ZERO,
+        inverse_dynamics_with_derivatives: Cost::ZERO,
         forward_dynamics_derivatives: Cost::ZERO,
+        forward_dynamics_with_derivatives: Cost::ZERO,
         total_mass: Cost::ZERO,
         center_of_mass: Cost::ZERO,
         center_of_mass_jacobian: Cost::ZERO,

@@ -34,6 +34,18 @@ fn the_bundle_agrees_with_its_parts() {
 }
 
 #[test]
+fn values_and_derivatives_are_provided_in_one() {
+    let (q, v, x) = (SVector::from([0.3, -0.8]), SVector::from([1.0, 2.0]), SVector::from([0.5, -3.0]));
+    let robot = DoublePendulum;
+    let (tau, derivatives) = robot.inverse_dynamics_with_derivatives(&q, &v, &x);
+    assert_eq!(tau, robot.inverse_dynamics(&q, &v, &x));
+    assert_eq!(derivatives, robot.inverse_dynamics_derivatives(&q, &v, &x));
+    let (a, derivatives) = robot.forward_dynamics_with_derivatives(&q, &v, &x);
+    assert_eq!(a, robot.forward_dynamics(&q, &v, &x));
+    assert_eq!(derivatives, robot.forward_dynamics_derivatives(&q, &v, &x));
+}
+
+#[test]
 fn checked_methods_name_the_argument_and_the_index() {
     let fine = SVector::from([0.1, 0.2]);
     let broken = SVector::from([0.1, f64::NAN]);

@@ -81,6 +81,10 @@ pub trait Robot<T: Scalar> {
     fn inverse_dynamics_derivatives(&self, q: &Vector<T>, v: &Vector<T>, a: &Vector<T>) -> [Matrix<T>; 3];
     /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ`
     fn forward_dynamics_derivatives(&self, q: &Vector<T>, v: &Vector<T>, tau: &Vector<T>) -> [Matrix<T>; 3];
+    /// `τ` and its derivatives by the bundle.
+    fn inverse_dynamics_with_derivatives(&self, at: [&Vector<T>; 3]) -> (Vector<T>, [Matrix<T>; 3]);
+    /// `a` and its derivatives by the bundle.
+    fn forward_dynamics_with_derivatives(&self, at: [&Vector<T>; 3]) -> (Vector<T>, [Matrix<T>; 3]);
 
     /// The mass of all that moves.
     fn total_mass(&self) -> T;

@@ -129,6 +129,18 @@ where
         [da_dq, da_dv, da_dtau].map(matrix)
     }
 
+    fn inverse_dynamics_with_derivatives(&self, [q, v, a]: [&Vector<T>; 3]) -> (Vector<T>, [Matrix<T>; 3]) {
+        let (tau, InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da }) =
+            self.robot.inverse_dynamics_with_derivatives(&fixed(q), &fixed(v), &fixed(a));
+        (vector(tau), [dtau_dq, dtau_dv, dtau_da].map(matrix))
+    }
+
+    fn forward_dynamics_with_derivatives(&self, [q, v, tau]: [&Vector<T>; 3]) -> (Vector<T>, [Matrix<T>; 3]) {
+        let (a, ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau }) =
+            self.robot.forward_dynamics_with_derivatives(&fixed(q), &fixed(v), &fixed(tau));
+        (vector(a), [da_dq, da_dv, da_dtau].map(matrix))
+    }
+
     fn total_mass(&self) -> T {
         self.robot.total_mass()
     }
@@ -270,6 +282,8 @@ where
         sum += robot.equations_of_motion(q, v).mass_matrix.sum();
         sum += robot.inverse_dynamics_derivatives(q, v, a).dtau_dq.sum();
         sum += robot.forward_dynamics_derivatives(q, v, a).da_dq.sum();
+        sum += robot.inverse_dynamics_with_derivatives(q, v, a).0.sum();
+        sum += robot.forward_dynamics_with_derivatives(q, v, a).0.sum();
         sum += robot.total_mass() + robot.center_of_mass(q).sum() + robot.center_of_mass_jacobian(q).sum();
         sum += robot.centroidal_momentum(q, v).sum() + robot.centroidal_momentum_matrix(q).sum();
         sum += robot.regressor(q, v, a).sum() + robot.inertial_parameters().sum();

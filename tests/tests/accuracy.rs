@@ -7,7 +7,7 @@ use dynamics_tests::accuracy::{Row, in_double, in_single};
 use dynamics_tests::zoo::{self, Entry};
 
 /// How many states each robot is tried at.
-const STATES: usize = 8;
+const STATES: usize = 16;
 /// The robots for which the marks are set: of up to so many degrees of freedom.
 const SMALL: usize = 7;
 

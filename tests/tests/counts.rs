@@ -10,7 +10,7 @@ use dynamics_tests::zoo::{self, Entry};
 
 type Column = (&'static str, fn(&Costs) -> Cost);
 
-const EQUATIONS: [Column; 12] = [
+const EQUATIONS: [Column; 14] = [
     ("M", |costs| costs.mass_matrix),
     ("1/M", |costs| costs.inverse_mass_matrix),
     ("C", |costs| costs.coriolis_matrix),
@@ -21,7 +21,9 @@ const EQUATIONS: [Column; 12] = [
     ("T-V", |costs| costs.lagrangian),
     ("M, C, G", |costs| costs.equations_of_motion),
     ("dID", |costs| costs.inverse_dynamics_derivatives),
+    ("ID, dID", |costs| costs.inverse_dynamics_with_derivatives),
     ("dFD", |costs| costs.forward_dynamics_derivatives),
+    ("FD, dFD", |costs| costs.forward_dynamics_with_derivatives),
     ("prepare", |costs| costs.prepare),
 ];
 

@@ -47,7 +47,12 @@ fn compiled_rust_computes_what_the_interpreted_programs_compute() {
         for state in states {
             let compare = |method: Method, found: &[f64], tolerance: f64, floor: f64| {
                 let Some(expected) = interpreter.run(method, state) else {
-                    let loops = [Method::ForwardDynamicsDerivatives, Method::InverseMassMatrix];
+                    let loops = [
+                        Method::ForwardDynamicsDerivatives,
+                        Method::InverseDynamicsWithDerivatives,
+                        Method::ForwardDynamicsWithDerivatives,
+                        Method::InverseMassMatrix,
+                    ];
                     let is_nothing = method.is_provided() && found.iter().all(|x| *x == 0.0);
                     let name = method.name();
                     assert!(loops.contains(&method) || is_nothing, "{}: {name} has no program", entry.name);
@@ -92,7 +97,14 @@ fn derivatives(robot: &dyn Robot<f64>, State { q, v, a, tau }: &State, close: Co
     let bundle = robot.inverse_dynamics_derivatives(q, v, a).each_ref().map(rows).concat();
     close(Method::InverseDynamicsDerivatives, &bundle, SAME_PROGRAM, 0.0);
     let bundle = robot.forward_dynamics_derivatives(q, v, tau).each_ref().map(rows).concat();
-    close(Method::ForwardDynamicsDerivatives, &bundle, solving_tolerance(robot, q, SAME_PROGRAM), 0.0);
+    let solving = solving_tolerance(robot, q, SAME_PROGRAM);
+    close(Method::ForwardDynamicsDerivatives, &bundle, solving, 0.0);
+    let (tau_of_a, derivatives) = robot.inverse_dynamics_with_derivatives([q, v, a]);
+    let bundle = [tau_of_a.as_slice().to_vec(), derivatives.each_ref().map(rows).concat()].concat();
+    close(Method::InverseDynamicsWithDerivatives, &bundle, SAME_PROGRAM, unit_force(robot, q));
+    let (a_of_tau, derivatives) = robot.forward_dynamics_with_derivatives([q, v, tau]);
+    let bundle = [a_of_tau.as_slice().to_vec(), derivatives.each_ref().map(rows).concat()].concat();
+    close(Method::ForwardDynamicsWithDerivatives, &bundle, solving, 0.0);
 }
 
 fn whole(robot: &dyn Robot<f64>, State { q, v, a, .. }: &State, close: Compare<'_>) {

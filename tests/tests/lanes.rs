@@ -89,6 +89,8 @@ macro_rules! agree {
         method!(equations_of_motion(q, v, _a) = r => r.equations_of_motion(q, v));
         method!(inverse_derivatives(q, v, a) = r => r.inverse_dynamics_derivatives(q, v, a));
         method!(forward_derivatives(q, v, tau) = r => r.forward_dynamics_derivatives(q, v, tau));
+        method!(inverse_bundle(q, v, a) = r => r.inverse_dynamics_with_derivatives(q, v, a));
+        method!(forward_bundle(q, v, tau) = r => r.forward_dynamics_with_derivatives(q, v, tau));
         method!(kinetic_energy(q, v, _a) = r => r.kinetic_energy(q, v));
         method!(energies(q, v, _a) = r => (r.potential_energy(q), r.elastic_energy(q), r.lagrangian(q, v)));
         method!(configurations(q, v, _a) = r => r.integrate(q, v));

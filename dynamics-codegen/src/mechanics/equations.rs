@@ -16,6 +16,7 @@ use super::normal::NormalTree;
 use super::passive;
 use super::regressor::{Regressed, RegressorColumn};
 use super::regroup::regroup;
+use super::rest::rest;
 use super::rnea;
 use super::unit;
 use crate::model::Model;
@@ -99,6 +100,11 @@ impl<'g> Derivation<'g> {
         Self { dynamic: unit::in_unit(&self.dynamic, length), ..self.clone() }
     }
 
+    /// The same derivation in frames that stay behind some links, if that can be less for anything.
+    pub fn at_rest(&self) -> Option<Self> {
+        Some(Self { dynamic: rest(&self.dynamic, &self.q)?, ..self.clone() })
+    }
+
     /// What a method returns, derived in one or more ways of which the cheapest may be taken.
     pub fn alternatives(&self, method: Method) -> Vec<Vec<Block<'g>>> {
         if method == Method::ForwardDynamics {
@@ -160,7 +166,12 @@ impl<'g> Derivation<'g> {
                 let potential = energy::potential_energy(&self.dynamic, &self.q);
                 vec![scalar(self.kinetic_energy_by_matrices() - potential)]
             }
-            Method::InverseDynamicsDerivatives => self.inverse_dynamics_derivatives_by_chain_rule(),
+            Method::InverseDynamicsDerivatives => self.by_chain_rule(&self.inverse_dynamics(&self.a)),
+            Method::InverseDynamicsWithDerivatives => {
+                let tau = self.inverse_dynamics(&self.a);
+                let derivatives = self.by_chain_rule(&tau);
+                with_derivatives(vector("tau", tau), derivatives)
+            }
             _ => return None,
         })
     }
@@ -205,11 +216,16 @@ impl<'g> Derivation<'g> {
                 square("coriolis_matrix", self.coriolis_matrix()),
                 vector("gravity_forces", self.gravity_forces()),
             ],
-            Method::InverseDynamicsDerivatives => {
-                let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.a);
-                self.derivative_blocks(dtau_dq, dtau_dv)
+            Method::InverseDynamicsDerivatives => self.derivatives_of_inverse_dynamics(),
+            Method::InverseDynamicsWithDerivatives => {
+                let tau = vector("tau", self.inverse_dynamics(&self.a));
+                with_derivatives(tau, self.derivatives_of_inverse_dynamics())
             }
-            Method::ForwardDynamicsDerivatives => self.forward_dynamics_derivatives(),
+            Method::ForwardDynamicsDerivatives => self.forward_dynamics_derivatives().1,
+            Method::ForwardDynamicsWithDerivatives => {
+                let (a, derivatives) = self.forward_dynamics_derivatives();
+                with_derivatives(vector("a", a), derivatives)
+            }
             Method::CenterOfMass => {
                 vec![vector("p", centroidal::center_of_mass(&self.kinematic, q).0.to_vec())]
             }
@@ -243,8 +259,13 @@ impl<'g> Derivation<'g> {
         vec![square("dtau_dq", dtau_dq), square("dtau_dv", dtau_dv), square("dtau_da", self.mass_matrix())]
     }
 
-    fn inverse_dynamics_derivatives_by_chain_rule(&self) -> Vec<Block<'g>> {
-        let tau = self.inverse_dynamics(&self.a);
+    fn derivatives_of_inverse_dynamics(&self) -> Vec<Block<'g>> {
+        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.a);
+        self.derivative_blocks(dtau_dq, dtau_dv)
+    }
+
+    /// The derivatives of the forces `tau` by each coordinate and speed.
+    fn by_chain_rule(&self, tau: &[Expr<'g>]) -> Vec<Block<'g>> {
         let with_respect_to = |argument: Argument| {
             let mut columns: Vec<Differentiator<'g>> = (0..self.inputs.dof)
                 .map(|k| Differentiator::new(self.graph, self.inputs.symbol(argument, k)))
@@ -308,17 +329,18 @@ impl<'g> Derivation<'g> {
         (factor.solve(&difference(&self.tau, bias)), factor)
     }
 
-    /// `∂a/∂q = −M⁻¹ ∂τ/∂q` and `∂a/∂v = −M⁻¹ ∂τ/∂v` at the acceleration that τ causes.
-    fn forward_dynamics_derivatives(&self) -> Vec<Block<'g>> {
+    /// The acceleration that τ causes, and there `∂a/∂q = −M⁻¹ ∂τ/∂q` and `∂a/∂v = −M⁻¹ ∂τ/∂v`.
+    fn forward_dynamics_derivatives(&self) -> (Vec<Expr<'g>>, Vec<Block<'g>>) {
         let (a, factor) = self.forward_dynamics();
         let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.coupling.spread(&a));
         let negated =
             |m: Square<Expr<'g>>| m.into_iter().map(|row| row.into_iter().map(|x| -x).collect()).collect();
-        vec![
+        let derivatives = vec![
             square("da_dq", factor.solve_matrix(&negated(dtau_dq))),
             square("da_dv", factor.solve_matrix(&negated(dtau_dv))),
             square("da_dtau", factor.inverse()),
-        ]
+        ];
+        (a, derivatives)
     }
 
     fn pose(&self, frame: usize) -> Vec<Block<'g>> {
@@ -396,6 +418,10 @@ fn beside<'g>(name: &'static str, columns: &[RegressorColumn<Expr<'g>>]) -> Bloc
 
 fn values<'g>(columns: &[RegressorColumn<Expr<'g>>]) -> Block<'g> {
     vector("pi", columns.iter().map(|column| column.value).collect())
+}
+
+fn with_derivatives<'g>(value: Block<'g>, derivatives: Vec<Block<'g>>) -> Vec<Block<'g>> {
+    std::iter::once(value).chain(derivatives).collect()
 }
 
 fn scalar(value: Expr<'_>) -> Block<'_> {

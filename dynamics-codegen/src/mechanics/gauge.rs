@@ -150,6 +150,7 @@ fn normal_link<'g>(
         drive: Drive { q, v, ratio, offset },
         passive: link.passive,
         turn,
+        about_z: None,
         offset: tidy_turn(beta.then(change.turn).then(angle)),
         position: tidy_vector(joint.translation + joint.rotation.column(2).scale(change.shift + distance)),
         inertia: tidy_inertia(inertia),

@@ -36,6 +36,10 @@ pub enum Method {
     InverseDynamicsDerivatives,
     /// `∂a/∂q`, `∂a/∂v`, `∂a/∂τ`
     ForwardDynamicsDerivatives,
+    /// `τ` and its derivatives
+    InverseDynamicsWithDerivatives,
+    /// `a` and its derivatives
+    ForwardDynamicsWithDerivatives,
     /// The centre of mass.
     CenterOfMass,
     /// Its Jacobian.
@@ -68,7 +72,7 @@ pub enum Method {
 
 impl Method {
     /// The methods of robots, trait by trait.
-    pub const OF_ROBOT: [Method; 24] = [
+    pub const OF_ROBOT: [Method; 26] = [
         Method::MassMatrix,
         Method::InverseMassMatrix,
         Method::CoriolisMatrix,
@@ -84,6 +88,8 @@ impl Method {
         Method::EquationsOfMotion,
         Method::InverseDynamicsDerivatives,
         Method::ForwardDynamicsDerivatives,
+        Method::InverseDynamicsWithDerivatives,
+        Method::ForwardDynamicsWithDerivatives,
         Method::TotalMass,
         Method::CenterOfMass,
         Method::CenterOfMassJacobian,
@@ -122,9 +128,10 @@ impl Method {
             | Method::ElasticEnergy
             | Method::Lagrangian
             | Method::EquationsOfMotion => Trait::Dynamics,
-            Method::InverseDynamicsDerivatives | Method::ForwardDynamicsDerivatives => {
-                Trait::DynamicsDerivatives
-            }
+            Method::InverseDynamicsDerivatives
+            | Method::ForwardDynamicsDerivatives
+            | Method::InverseDynamicsWithDerivatives
+            | Method::ForwardDynamicsWithDerivatives => Trait::DynamicsDerivatives,
             Method::TotalMass
             | Method::CenterOfMass
             | Method::CenterOfMassJacobian
@@ -148,6 +155,8 @@ impl Method {
                 | Method::PassiveForces
                 | Method::ElasticEnergy
                 | Method::EquationsOfMotion
+                | Method::InverseDynamicsWithDerivatives
+                | Method::ForwardDynamicsWithDerivatives
                 | Method::CenterOfMassJacobian
                 | Method::CentroidalMomentum
         )
@@ -171,6 +180,8 @@ impl Method {
             Method::EquationsOfMotion => "equations_of_motion",
             Method::InverseDynamicsDerivatives => "inverse_dynamics_derivatives",
             Method::ForwardDynamicsDerivatives => "forward_dynamics_derivatives",
+            Method::InverseDynamicsWithDerivatives => "inverse_dynamics_with_derivatives",
+            Method::ForwardDynamicsWithDerivatives => "forward_dynamics_with_derivatives",
             Method::CenterOfMass => "center_of_mass",
             Method::CenterOfMassJacobian => "center_of_mass_jacobian",
             Method::CentroidalMomentum => "centroidal_momentum",
@@ -185,6 +196,21 @@ impl Method {
             Method::WorldJacobian(_) => "world_jacobian",
             Method::Velocity(_) => "velocity",
             Method::Acceleration(_) => "acceleration",
+        }
+    }
+
+    /// Of a bundle, and of the method that gives all of it but the first block: the one and the other.
+    pub fn bundle_and_part(self) -> Option<[Method; 2]> {
+        use Method::{ForwardDynamicsDerivatives, ForwardDynamicsWithDerivatives};
+        use Method::{InverseDynamicsDerivatives, InverseDynamicsWithDerivatives};
+        match self {
+            InverseDynamicsWithDerivatives | InverseDynamicsDerivatives => {
+                Some([InverseDynamicsWithDerivatives, InverseDynamicsDerivatives])
+            }
+            ForwardDynamicsWithDerivatives | ForwardDynamicsDerivatives => {
+                Some([ForwardDynamicsWithDerivatives, ForwardDynamicsDerivatives])
+            }
+            _ => None,
         }
     }
 
@@ -226,10 +252,13 @@ impl Method {
             | Method::Velocity(_) => &[Q, V],
             Method::InverseDynamics
             | Method::InverseDynamicsDerivatives
+            | Method::InverseDynamicsWithDerivatives
             | Method::Regressor
             | Method::BaseRegressor
             | Method::Acceleration(_) => &[Q, V, A],
-            Method::ForwardDynamics | Method::ForwardDynamicsDerivatives => &[Q, V, Tau],
+            Method::ForwardDynamics
+            | Method::ForwardDynamicsDerivatives
+            | Method::ForwardDynamicsWithDerivatives => &[Q, V, Tau],
         }
     }
 }
@@ -260,6 +289,11 @@ impl Trait {
         Trait::Regressor,
         Trait::BaseRegressor,
     ];
+
+    /// Whether its methods take the robot's mass for forces and energies, and not as parameters or as a whole.
+    pub fn is_of_forces(self) -> bool {
+        matches!(self, Trait::Dynamics | Trait::DynamicsDerivatives)
+    }
 
     /// The name in the run time.
     pub fn name(self) -> &'static str {

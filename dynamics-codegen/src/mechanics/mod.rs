@@ -19,6 +19,7 @@ pub mod passive;
 pub mod plain;
 pub mod regressor;
 pub mod regroup;
+pub mod rest;
 pub mod rnea;
 pub mod rotation;
 pub mod singular;

@@ -28,6 +28,8 @@ pub struct NormalLink<S> {
     /// The constant turn about z that adds to the joint's own. It is applied to the joint's sine and cosine, not
     /// added to its coordinate: a sum of angles is rounded like its larger part, and would spoil their reduction.
     pub offset: PlanarTurn<S>,
+    /// The turn about z at the configuration at hand, where it is not the joint's own ([`rest`](super::rest)).
+    pub about_z: Option<PlanarTurn<S>>,
     /// The origin of the joint's frame in the parent's frame, at `q = 0`.
     pub position: Vector3<S>,
     /// The mass that the recursions see, in the link's frame.
@@ -112,12 +114,14 @@ impl<S: Scalar> PlacedJoint<S> {
     fn new(link: &NormalLink<S>, q: &[S]) -> Self {
         let NormalLink { drive, position, .. } = *link;
         let axis = link.turn.up(Vector3::unit_z());
-        let placed = Self { constant: link.turn, about_z: link.offset, position, axis, motion: link.motion };
         let own = &q[drive.q..];
+        let about_z = link.about_z.unwrap_or_else(|| match link.motion {
+            Motion::Revolute => PlanarTurn::of_angle(drive.ratio * own[0]).then(link.offset),
+            _ => link.offset,
+        });
+        let placed = Self { constant: link.turn, about_z, position, axis, motion: link.motion };
         match link.motion {
-            Motion::Revolute => {
-                Self { about_z: PlanarTurn::of_angle(drive.ratio * own[0]).then(link.offset), ..placed }
-            }
+            Motion::Revolute => placed,
             Motion::Prismatic => Self { position: position + axis.scale(drive.ratio * own[0]), ..placed },
             Motion::Ball => Self { constant: turned(link.turn, own), ..placed },
             Motion::Free => {

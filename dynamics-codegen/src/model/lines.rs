@@ -23,6 +23,8 @@ pub const OUTPUTS: &[&str] = &[
     "equations_of_motion",
     "inverse_dynamics_derivatives",
     "forward_dynamics_derivatives",
+    "inverse_dynamics_with_derivatives",
+    "forward_dynamics_with_derivatives",
     "total_mass",
     "center_of_mass",
     "center_of_mass_jacobian",

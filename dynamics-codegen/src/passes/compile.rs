@@ -75,6 +75,8 @@ pub struct CompiledMethod<'g> {
     pub plan: Plan<'g>,
     /// Its operations.
     pub cost: Cost,
+    /// The bundle whose body it shares, being that bundle or all but the first block of it.
+    pub shares: Option<Method>,
 }
 
 /// Compiles `methods` of `model`.
@@ -82,25 +84,41 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let derivation = Derivation::of(model, graph);
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
+    let at_rest = derivation.at_rest();
+    let inputs = derivation.inputs;
     let plan = Plans::of(model);
-    let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
+    let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
+    let shares = |method: Method| {
+        let both = method.bundle_and_part().filter(|_| inputs.dof > LARGEST_TO_SHARE_ALL)?;
+        both.into_iter().all(is_straight).then_some(both[0])
+    };
+    let has_own = |method: Method| shares(method).is_none_or(|bundle| bundle == method);
+    let straight = methods.iter().copied().filter(|&method| is_straight(method) && has_own(method));
     let mut normaliser = Normaliser::new(graph);
     let equations: Vec<Equation<'g>> = straight
-        .map(|method| Equation { method, blocks: cheapest(&derivation, method, &mut normaliser) })
+        .map(|method| {
+            let at_rest = at_rest.as_ref().filter(|_| method.trait_().is_of_forces());
+            let derivations = std::iter::once(&derivation).chain(at_rest);
+            Equation { method, blocks: cheapest(derivations, method, &mut normaliser) }
+        })
         .collect();
     let table = methods
         .iter()
         .any(|&method| matches!(plan.form(method), Form::Table | Form::Lanes))
         .then(|| table::entries(model));
-    let inputs = derivation.inputs;
     let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
-    let mut equations = equations.into_iter();
+    let blocks_of = |method: Method| -> Vec<Block<'g>> {
+        let of = |method| equations.iter().find(|equation| equation.method == method);
+        let owner = shares(method).unwrap_or(method);
+        let first = usize::from(owner != method);
+        of(owner).map(|equation| equation.blocks[first..].to_vec()).unwrap_or_default()
+    };
     let mut compiled: Vec<CompiledMethod<'g>> = Vec::with_capacity(methods.len());
     for &method in methods {
         let (plan, cost) = match plan.form(method) {
             Form::StraightLine => {
-                let blocks = equations.next().map(|equation| equation.blocks).unwrap_or_default();
+                let blocks = blocks_of(method);
                 let program = program_of(&entries(&blocks));
                 let cost = program.cost();
                 (Plan::StraightLine { blocks, program }, cost)
@@ -114,7 +132,7 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 (Plan::Table { frame, in_lanes: form == Form::Lanes }, plan.cost_of_table(method))
             }
         };
-        compiled.push(CompiledMethod { method, cost, plan });
+        compiled.push(CompiledMethod { method, cost, plan, shares: shares(method) });
     }
     let table = table.map(|entries| program_of(&entries));
     let names = |columns: &[RegressorColumn<Expr<'g>>]| columns.iter().map(|c| c.name.clone()).collect();
@@ -135,15 +153,16 @@ fn cost_of_loops(method: Method, dof: usize, compiled: &[CompiledMethod<'_>]) ->
     let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
     // A factorisation and the inverse of the factor are a sixth of n³ each, and half of it each product with the factor:
     // one of them for M⁻¹, two for each matrix that is solved for.
-    let sixths = match method {
-        Method::InverseMassMatrix => 2 + 3,
-        _ => 2 + 3 + 12,
+    let (sixths, divisions) = match method {
+        Method::InverseDynamicsWithDerivatives => (0, 0),
+        Method::InverseMassMatrix => (2 + 3, dof),
+        _ => (2 + 3 + 12, dof),
     };
     let of_products = count(sixths * dof * dof * dof / 6);
     let mut cost = Cost {
         multiplications: of_products,
         additions: of_products,
-        divisions: count(dof),
+        divisions: count(divisions),
         ..Cost::default()
     };
     for &part in calls(method) {
@@ -168,21 +187,22 @@ fn best_unit(derivation: &Derivation<'_>) -> Number {
 }
 
 /// The cheapest way to compute a method's result, simplified.
-fn cheapest<'g>(
-    derivation: &Derivation<'g>,
+fn cheapest<'d, 'g: 'd>(
+    derivations: impl Iterator<Item = &'d Derivation<'g>>,
     method: Method,
     normaliser: &mut Normaliser<'g>,
 ) -> Vec<Block<'g>> {
-    let graph = derivation.graph;
+    let mut derivations = derivations.peekable();
+    let Some(&&Derivation { graph, inputs, .. }) = derivations.peek() else { return vec![] };
     let is_free = |node| graph.is_parameter_only(node);
     let cost = |blocks: &Vec<Block<'g>>| arithmetic(graph, &entries(blocks), is_free);
     let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
-    for blocks in derivation.alternatives(method) {
+    for blocks in derivations.flat_map(|derivation| derivation.alternatives(method)) {
         let entries = entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
         plain.push(with_entries(&blocks, entries));
     }
-    if derivation.inputs.dof > MOST_TO_SHARE_EACH {
-        plain.sort_by_key(cost);
+    plain.sort_by_key(cost);
+    if inputs.dof > LARGEST_TO_SHARE_ALL {
         plain.truncate(1);
     }
     let simplified = plain.into_iter().flat_map(|blocks| {
@@ -192,8 +212,9 @@ fn cheapest<'g>(
     simplified.min_by_key(cost).unwrap_or_default()
 }
 
-/// The largest robot of which every alternative is simplified before the cheapest is chosen.
-const MOST_TO_SHARE_EACH: usize = 3;
+/// The largest robot of which all alternatives are simplified before the cheapest is chosen, and of which derivatives
+/// have a body of their own beside that with the value.
+const LARGEST_TO_SHARE_ALL: usize = 3;
 
 /// All entries of the blocks, in order.
 pub fn entries<'g>(blocks: &[Block<'g>]) -> Vec<Expr<'g>> {

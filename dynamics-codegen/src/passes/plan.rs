@@ -36,7 +36,7 @@ pub enum Plan<'g> {
         program: Program,
     },
     /// By the run time's loops over rows and columns: derivatives of forward dynamics from those of inverse dynamics,
-    /// and `M⁻¹` from `M`.
+    /// and `M⁻¹` from `M`; a bundle by its parts.
     Loops,
     /// By the run time's recursion over a table of links.
     Table {
@@ -89,8 +89,14 @@ impl Plans {
             _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.ancestors.len() >= fewest) => {
                 Form::Lanes
             }
+            Method::InverseDynamicsWithDerivatives => match self.form(Method::InverseDynamicsDerivatives) {
+                Form::StraightLine => Form::StraightLine,
+                _ => Form::Loops,
+            },
             _ if too_long => Form::Table,
-            Method::ForwardDynamicsDerivatives if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE => {
+            Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives
+                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE =>
+            {
                 Form::Loops
             }
             Method::InverseMassMatrix if self.statements_of_inverse() > LONGEST_STRAIGHT_INVERSE => {
@@ -119,7 +125,7 @@ impl Plans {
         match method {
             Method::MassMatrix => 4 * pairs,
             Method::CoriolisMatrix | Method::EquationsOfMotion => 16 * pairs,
-            Method::InverseDynamicsDerivatives => 36 * pairs,
+            Method::InverseDynamicsDerivatives | Method::InverseDynamicsWithDerivatives => 36 * pairs,
             Method::GravityForces | Method::PotentialEnergy => 10 * n,
             Method::PassiveForces | Method::ElasticEnergy => 6 * n,
             Method::TotalMass | Method::InertialParameters | Method::BaseParameters => 10 * n,
@@ -130,7 +136,9 @@ impl Plans {
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
             Method::ForwardDynamics => 80 * n,
             // By loops: the two methods it calls have their own forms.
-            Method::ForwardDynamicsDerivatives | Method::InverseMassMatrix => 0,
+            Method::ForwardDynamicsDerivatives
+            | Method::ForwardDynamicsWithDerivatives
+            | Method::InverseMassMatrix => 0,
             Method::Pose(_) => 12 * self.frame_joints / self.frames.max(1),
             Method::Jacobian(_) | Method::WorldJacobian(_) => 16 * self.frame_joints / self.frames.max(1),
             Method::Velocity(_) => 20 * self.frame_joints / self.frames.max(1),
@@ -217,7 +225,12 @@ fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
 /// What a method in the form of loops calls.
 pub(super) fn calls(method: Method) -> &'static [Method] {
     match method {
-        Method::ForwardDynamicsDerivatives => &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives],
+        Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
+            &[Method::ForwardDynamics, Method::InverseDynamicsDerivatives]
+        }
+        Method::InverseDynamicsWithDerivatives => {
+            &[Method::InverseDynamics, Method::InverseDynamicsDerivatives]
+        }
         Method::InverseMassMatrix => &[Method::MassMatrix],
         _ => &[],
     }

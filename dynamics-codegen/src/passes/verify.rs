@@ -145,8 +145,25 @@ impl Sample {
                     &[expected.dtau_dq.concat(), expected.dtau_dv.concat(), expected.dtau_da.concat()],
                 )
             }
+            Method::InverseDynamicsWithDerivatives => {
+                let expected = oracle.inverse_dynamics_derivatives(q, v, a);
+                let derivatives = [expected.dtau_dq, expected.dtau_dv, expected.dtau_da];
+                let [by_q, by_v, by_a] = derivatives.map(|block| block.concat());
+                self.blocks_off(&found, inertia, &[oracle.inverse_dynamics(q, v, a), by_q, by_v, by_a])
+            }
             Method::ForwardDynamics => match self.acceleration() {
                 Some(_) => oracle.forward_dynamics_residual(q, v, tau, &found),
+                None => 0.0,
+            },
+            Method::ForwardDynamicsWithDerivatives => match self.acceleration() {
+                Some(a) => {
+                    let (value, found) = found.split_at(v.len());
+                    let derivatives = self.derivatives(found);
+                    larger(
+                        oracle.forward_dynamics_residual(q, v, tau, value),
+                        oracle.forward_dynamics_derivatives_residual(q, v, a, &derivatives),
+                    )
+                }
                 None => 0.0,
             },
             Method::ForwardDynamicsDerivatives => match self.acceleration() {

@@ -124,7 +124,7 @@ pub trait Stage<const NQ: usize, const NV: usize> {
     fn enter<O: Entries>(&mut self, output: &str, call: impl Fn(&State<NQ, NV>) -> O);
 }
 
-/// Enters every output of a robot: those of [`OUTPUTS`], `h = C·v + G`, and `M`, `C` and `G` in one.
+/// Enters every output of a robot: those of [`OUTPUTS`], `h = C·v + G`, and the bundles.
 pub fn enter_all<R, const NQ: usize, const NV: usize>(robot: &R, stage: &mut impl Stage<NQ, NV>)
 where
     R: DynamicsDerivatives<f64, NQ, NV>,
@@ -139,6 +139,8 @@ where
     stage.enter("M,C,G", |s| robot.equations_of_motion(&s.q, &s.v));
     stage.enter("dID", |s| robot.inverse_dynamics_derivatives(&s.q, &s.v, &s.a));
     stage.enter("dFD", |s| robot.forward_dynamics_derivatives(&s.q, &s.v, &s.a));
+    stage.enter("ID+dID", |s| robot.inverse_dynamics_with_derivatives(&s.q, &s.v, &s.a));
+    stage.enter("FD+dFD", |s| robot.forward_dynamics_with_derivatives(&s.q, &s.v, &s.a));
 }
 
 /// What a method returns, as numbers.
@@ -163,6 +165,12 @@ impl<const NV: usize> Entries for EquationsOfMotion<f64, NV> {
 impl<const NV: usize> Entries for InverseDynamicsDerivatives<f64, NV> {
     fn entries(&self) -> Vec<f64> {
         [&self.dtau_dq, &self.dtau_dv, &self.dtau_da].map(Entries::entries).concat()
+    }
+}
+
+impl<V: Entries, D: Entries> Entries for (V, D) {
+    fn entries(&self) -> Vec<f64> {
+        [self.0.entries(), self.1.entries()].concat()
     }
 }
 

@@ -224,6 +224,31 @@ fn bundles_equal_their_parts() {
     });
 }
 
+/// What is solved for is compared by the residual: the entries may differ by the condition of M.
+#[test]
+fn values_with_their_derivatives_equal_their_parts() {
+    for_each_state(|name, robot, state| {
+        let State { q, v, a, tau } = state;
+        let (forces_of_a, derivatives) = robot.inverse_dynamics_with_derivatives([q, v, a]);
+        let expected = robot.inverse_dynamics(q, v, a);
+        let size = forces(robot, state);
+        assert_close!(forces_of_a.as_slice(), expected.as_slice(), ROUNDING, floor = size, "{name}: τ");
+        for (block, alone) in derivatives.iter().zip(&robot.inverse_dynamics_derivatives(q, v, a)) {
+            close("∂τ", name, block, alone, ROUNDING, size);
+        }
+
+        let (a_of_tau, derivatives) = robot.forward_dynamics_with_derivatives([q, v, tau]);
+        let (M, h) = (robot.mass_matrix(q), robot.bias_forces(q, v));
+        let terms = (M.abs() * a_of_tau.abs()).amax().max(tau.amax()).max(h.amax()).max(size);
+        let found = &M * &a_of_tau + h;
+        assert_close!(found.as_slice(), tau.as_slice(), ROUNDING, floor = terms, "{name}: M·a + h = τ");
+        for (block, alone) in derivatives.iter().zip(&robot.forward_dynamics_derivatives(q, v, tau)) {
+            let terms = (M.abs() * block.abs()).amax().max(M.amax());
+            close("M·∂a", name, &(&M * block), &(&M * alone), ROUNDING, terms);
+        }
+    });
+}
+
 #[test]
 fn prepared_companions_compute_the_same_bits() {
     for (entry, Forms { robot, prepared }) in zoo::in_double() {
@@ -248,6 +273,8 @@ fn prepared_companions_compute_the_same_bits() {
             same!(elastic_energy(q));
             same!(inverse_dynamics_derivatives(q, v, a));
             same!(forward_dynamics_derivatives(q, v, tau));
+            same!(inverse_dynamics_with_derivatives([q, v, a]));
+            same!(forward_dynamics_with_derivatives([q, v, tau]));
             same!(linearize(q, v, &tau.rows(0, robot.input_map().ncols()).into_owned()));
             same!(total_mass());
             same!(center_of_mass(q));

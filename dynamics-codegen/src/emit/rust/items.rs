@@ -22,7 +22,8 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     text.push_str("const _: () = {\n");
     text.push_str(&emitter.alias());
     let _ = writeln!(text, "    use {}::__private::*;\n", emitter.item.core);
-    for part in [emitter.prepare(), emitter.check(), emitter.table(), emitter.mechanism(&written)] {
+    let shared = emitter.shared(&written);
+    for part in [emitter.prepare(), emitter.check(), emitter.table(), emitter.mechanism(&written), shared] {
         text.push_str(&part);
     }
     for trait_ in Trait::OF_ROBOT {
@@ -237,6 +238,23 @@ impl<'m, 'g> Emitter<'m, 'g> {
             text.push_str("    }\n\n");
         }
         text
+    }
+
+    /// The bodies that bundles and their parts share.
+    fn shared(&self, written: &[Written]) -> String {
+        let generics =
+            self.scalar_parameter.as_ref().map_or_else(String::new, |scalar| format!("<{scalar}>"));
+        let body = |written: &Written| {
+            let name = written.method.name();
+            let shared =
+                format!("#[inline(always)]\n    fn {}{generics}(", methods::shared_name(written.method));
+            Some(indented(&written.shared.as_ref()?.replacen(&format!("fn {name}("), &shared, 1)))
+        };
+        let bodies: Vec<String> = written.iter().filter_map(body).collect();
+        if bodies.is_empty() {
+            return String::new();
+        }
+        self.open_without_scalar(&self.prepared(), "") + &bodies.join("\n") + "    }\n\n"
     }
 
     /// The text of a trait's method as that of an inherent one; on a unit struct the scalar is its parameter.

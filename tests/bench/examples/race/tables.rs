@@ -117,16 +117,21 @@ pub(crate) fn generic(robots: &[String], times: &Times) -> String {
 
 /// What computing several outputs in one call saves.
 pub(crate) fn bundles(robots: &[String], times: &Times) -> String {
-    let bundles = [("M,C,G", ["M", "C", "G"]), ("dFD", ["FD", "dID", "1/M"])];
-    let mut table =
-        "| robot | M, C, G in one | M + C + G | ratio | ∂FD, which has M⁻¹ | FD + ∂ID + M⁻¹ | ratio |\n\
-         |---|--:|--:|--:|--:|--:|--:|\n"
-            .to_owned();
+    let bundles: [(&str, &[&str]); 4] = [
+        ("M,C,G", &["M", "C", "G"]),
+        ("ID+dID", &["ID", "dID"]),
+        ("FD+dFD", &["FD", "dFD"]),
+        ("dFD", &["FD", "dID", "1/M"]),
+    ];
+    let mut table = "| robot | M, C, G in one | M + C + G | ratio | ID, ∂ID in one | ID + ∂ID | ratio \
+         | FD, ∂FD in one | FD + ∂FD | ratio | ∂FD, which has M⁻¹ | FD + ∂ID + M⁻¹ | ratio |\n\
+         |---|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|\n"
+        .to_owned();
     for robot in robots {
         let of = |output: &str| times.get(robot, output, Contestant::Ours).unwrap_or(f64::NAN);
         let _ = write!(table, "| {robot} |");
         for (bundle, parts) in bundles {
-            let (whole, sum) = (of(bundle), parts.map(of).iter().sum::<f64>());
+            let (whole, sum) = (of(bundle), parts.iter().map(|part| of(part)).sum::<f64>());
             let _ = write!(table, " {whole:.1} | {sum:.1} | {:.2} |", whole / sum);
         }
         table += "\n";
