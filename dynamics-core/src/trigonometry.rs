@@ -9,7 +9,7 @@
 //! | [`sin_cos_f32`] | \|x\| ≤ 10⁴ | 9.2e-8 | NaN from 2²⁰ on |
 //!
 //! In between, the error is at most that and the spacing of floats at `x`. Infinity and NaN give NaN. The sine is odd and
-//! the cosine even, to the bit; zero keeps its sign. `cargo bench -p dynamics-core --bench sine` tries every `f32`.
+//! the cosine even, to the bit, but that the sine of −0 is +0. `cargo bench -p dynamics-core --bench sine` tries every `f32`.
 //!
 //! Sources: W. J. Cody and W. Waite, *Software Manual for the Elementary Functions*, Prentice-Hall 1980 (reduction in
 //! parts); the polynomials of fdlibm (Sun Microsystems 1993) for `f64`, minimax fits of our own for `f32`.

@@ -57,24 +57,34 @@ pub(crate) fn root() -> PathBuf {
 
 /// Builds all programs; the folder that they are in.
 pub(crate) fn build(target: Target, profile: Profile) -> Result<PathBuf> {
-    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-    let arguments = ["build", "--quiet", "--package", "firmware-board", "--bins"];
-    let status = Command::new(cargo)
-        .current_dir(root())
-        .args(arguments)
-        .args(["--target", target.triple(), "--profile", profile.name()])
-        .env("CARGO_TARGET_DIR", target_folder())
-        .env_remove("CARGO_ENCODED_RUSTFLAGS") // the host's
-        .status();
+    let status = command(target, profile).args(["--quiet", "--bins"]).status();
     match status {
         Ok(status) if status.success() => {}
         Ok(_) => {
-            return Err(format!("the firmware does not build for {} in {}", target.triple(), profile.name()));
+            return Err(format!("the firmware does not build for {}, {}", target.triple(), profile.name()));
         }
         Err(error) => return Err(format!("cargo: {error}")),
     }
     let folder = if profile == Profile::Dev { "debug" } else { profile.name() };
     Ok(target_folder().join(target.triple()).join(folder))
+}
+
+/// Whether the linker refuses the program that has a panic path, for that reason.
+pub(crate) fn refuses_panics(target: Target, profile: Profile) -> Result<bool> {
+    let arguments = ["--quiet", "--bin", "panics", "--features", "panics"];
+    let output =
+        command(target, profile).args(arguments).output().map_err(|error| format!("cargo: {error}"))?;
+    let refused = String::from_utf8_lossy(&output.stderr).contains("discarded section");
+    Ok(!output.status.success() && refused)
+}
+
+fn command(target: Target, profile: Profile) -> Command {
+    let cargo = env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    let mut command = Command::new(cargo);
+    command.current_dir(root()).args(["build", "--package", "firmware-board"]);
+    command.args(["--target", target.triple(), "--profile", profile.name()]);
+    command.env("CARGO_TARGET_DIR", target_folder()).env_remove("CARGO_ENCODED_RUSTFLAGS"); // the host's
+    command
 }
 
 fn target_folder() -> PathBuf {

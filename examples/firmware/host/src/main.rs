@@ -22,7 +22,7 @@ use firmware_control::report::Printer;
 use firmware_control::trial;
 
 use crate::agreement::{Agreement, TOLERANCE, agreements};
-use crate::cargo::{Profile, Target, build, root, rustc};
+use crate::cargo::{Profile, Target, build, refuses_panics, root, rustc};
 use crate::elf::{Forbidden, Program};
 use crate::measure::measure;
 use crate::qemu::Machine;
@@ -144,6 +144,12 @@ fn promises(target: Target, profile: Profile, torques: &str, mistakes: &mut Vec<
         for difference in differences(torques, &found) {
             mistakes.push(format!("torques of {triple}, {profile}, on {}:\n{difference}", machine.name()));
         }
+    }
+    if profile != Profile::Dev && !refuses_panics(target, profile)? {
+        let (triple, profile) = (target.triple(), profile.name());
+        mistakes.push(format!(
+            "a program that can panic links for {triple}, {profile}: that others link proves nothing"
+        ));
     }
     for program in ["control", "methods"] {
         let elf = Program::read(&folder.join(program))?;
