@@ -50,6 +50,15 @@ fn members() -> Vec<String> {
     list.split(',').map(|member| member.trim().trim_matches('"').to_owned()).collect()
 }
 
+/// The packages of the firmware, which are a workspace of their own.
+const FIRMWARE: [&str; 3] =
+    ["examples/firmware/control", "examples/firmware/board", "examples/firmware/host"];
+
+/// The packages of both workspaces.
+fn packages() -> Vec<String> {
+    members().into_iter().chain(FIRMWARE.map(str::to_owned)).collect()
+}
+
 /// All Rust files under a folder, in order; not what tests of error messages are about.
 fn sources(folder: &str) -> Vec<Source> {
     let (mut files, mut folders) = (vec![], vec![root().join(folder)]);
@@ -186,8 +195,8 @@ fn every_file_is_reached() {
 #[test]
 fn unsafe_code_is_forbidden_everywhere() {
     let forbids = |manifest: &str| manifest.contains("unsafe_code = \"forbid\"");
-    assert!(forbids(&read("Cargo.toml")));
-    for member in members() {
+    assert!(forbids(&read("Cargo.toml")) && forbids(&read("examples/firmware/Cargo.toml")));
+    for member in packages() {
         let manifest = read(&format!("{member}/Cargo.toml"));
         assert!(
             manifest.contains("[lints]\nworkspace = true") || forbids(&manifest),
@@ -260,10 +269,11 @@ fn the_run_time_has_no_heap() {
 #[test]
 fn every_dependency_has_its_reason() {
     let reasons = read("DESIGN.md");
-    for member in members() {
+    for member in packages() {
         let manifest = read(&format!("{member}/Cargo.toml"));
-        let of_all = ["[dependencies]", "[dev-dependencies]"].iter().flat_map(|table| keys(&manifest, table));
-        for name in of_all.filter(|name| !name.starts_with("dynamics-")) {
+        let tables = manifest.lines().filter(|line| line.starts_with('[') && line.ends_with("dependencies]"));
+        let of_all = tables.flat_map(|table| keys(&manifest, table));
+        for name in of_all.filter(|name| !name.starts_with("dynamics-") && !name.starts_with("firmware-")) {
             assert!(
                 reasons.contains(&format!("| `{name}` |")),
                 "DESIGN.md does not say why {member} needs {name}"

@@ -62,14 +62,14 @@
 //! ```
 
 mod pack;
-#[cfg(feature = "rayon")]
+#[cfg(all(feature = "rayon", not(target_os = "none")))]
 mod parallel;
 
 use crate::error::Error;
 use crate::lanes::{Lanes, Native};
 
 pub use pack::{Pack, States};
-#[cfg(feature = "rayon")]
+#[cfg(all(feature = "rayon", not(target_os = "none")))]
 pub use parallel::{par_map, par_map_in};
 
 /// `results[k] = f(states[k])` for every `k`, in lanes as wide as the target's registers.

@@ -239,6 +239,15 @@ pub trait DynamicsDerivatives<T: Scalar, const NQ: usize, const NV: usize>: Dyna
 
 /// `M(q)`, `C(q,v)` and `G(q)` at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct EquationsOfMotion<T, const NV: usize> {
     /// `M(q)`, see [`Dynamics::mass_matrix`].
     pub mass_matrix: SMatrix<T, NV, NV>,
@@ -250,6 +259,15 @@ pub struct EquationsOfMotion<T, const NV: usize> {
 
 /// How the joint forces change with position, velocity and acceleration. Row: force; column: what changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct InverseDynamicsDerivatives<T, const NV: usize> {
     /// `∂τ/∂q`.
     pub dtau_dq: SMatrix<T, NV, NV>,
@@ -261,6 +279,15 @@ pub struct InverseDynamicsDerivatives<T, const NV: usize> {
 
 /// How the accelerations change with position, velocity and force. Row: acceleration; column: what changes.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct ForwardDynamicsDerivatives<T, const NV: usize> {
     /// `∂a/∂q`.
     pub da_dq: SMatrix<T, NV, NV>,

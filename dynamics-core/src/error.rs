@@ -10,6 +10,8 @@ use crate::scalar::Scalar;
 ///
 /// The plain methods of [`Dynamics`](crate::Dynamics) return no errors: they follow IEEE 754 and never panic.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub enum Error {
     /// An entry of an argument or of a result is infinite or NaN.

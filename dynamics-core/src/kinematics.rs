@@ -234,6 +234,15 @@ fn in_world<T: Scalar>(pose: &Pose<T>, x: &SVector<T, 6>) -> SVector<T, 6> {
 
 /// A rigid placement: `x_world = rotation·x_frame + translation`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Pose<T> {
     /// The rotation, 3×3, that takes components in the frame to components in the world.
     pub rotation: SMatrix<T, 3, 3>,

@@ -37,11 +37,22 @@
 //! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
 //! | `simd` | [lanes]: `f64x4`, `f64x8`, `f32x8`, `f32x16` as scalars; [batches](batch) of states from slices |
 //! | `rayon` | batches over all cores; implies `simd` and `std`, has a heap, and panics if threads cannot be started |
+//! | `serde` | `Serialize` for states, poses, equations, derivatives, linear models, energies, costs, limits and errors, and `Deserialize` for all but errors; matrices as nalgebra writes them, by columns |
+//! | `defmt` | `Format` for the same types, for the log of a microcontroller |
+//!
+//! Any set of them works together. On a target without an operating system `std` and `rayon` are refused; there
+//! `default-features = false, features = ["derive"]` is all that is needed.
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
-#[cfg(any(feature = "std", test))]
+#[cfg(all(feature = "std", target_os = "none"))]
+compile_error!(
+    "the feature `std` of `dynamics-core` needs an operating system, and this target has none; \
+     write `default-features = false, features = [\"derive\"]` where you depend on it, and leave out `rayon`"
+);
+
+#[cfg(all(any(feature = "std", test), not(target_os = "none")))]
 extern crate std;
 
 #[doc(hidden)]

@@ -166,6 +166,15 @@ fn assembled<T: Scalar, const NV: usize, const NX: usize, const NU: usize>(
 
 /// `ẋ ≈ A·δx + B·δu + drift`, with `x = (q ⊖ q₀, v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct Linearization<T, const NX: usize, const NU: usize> {
     /// `∂f/∂x`, NX×NX: `[0 1; ∂a/∂q ∂a/∂v]`.
     pub a: SMatrix<T, NX, NX>,

@@ -91,6 +91,8 @@ impl Motion {
 
 /// The limits of one velocity coordinate, in rad, rad/s, N·m (prismatic: m, m/s, N).
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct JointLimits {
     /// The least coordinate; −∞ if there is none.
     pub lower: f64,
@@ -120,6 +122,8 @@ impl Default for JointLimits {
 
 /// The operations of one straight-line function; displayed like `193 mul, 183 add, 7 sincos`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Cost {
     /// Products, those within a fused multiply-add too.
     pub multiplications: u32,
@@ -161,6 +165,8 @@ impl fmt::Display for Cost {
 
 /// The operations of every method of a robot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Costs {
     /// Of [`mass_matrix`](crate::Dynamics::mass_matrix).
     pub mass_matrix: Cost,
@@ -253,6 +259,8 @@ impl Costs {
 
 /// The operations of the methods of a [`Frame`](crate::Frame).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct FrameCosts {
     /// Of `pose`.
     pub pose: Cost,

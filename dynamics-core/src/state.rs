@@ -7,6 +7,15 @@ use crate::scalar::Scalar;
 
 /// Position and velocity: `x = (q, v)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(
+    feature = "serde",
+    derive(serde::Serialize, serde::Deserialize),
+    serde(bound(
+        serialize = "T: Scalar + serde::Serialize",
+        deserialize = "T: Scalar + serde::Deserialize<'de>"
+    ))
+)]
 pub struct State<T, const NQ: usize, const NV: usize> {
     /// The configuration, in rad or m; of ball and free joints quaternions, without unit.
     pub q: SVector<T, NQ>,

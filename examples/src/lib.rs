@@ -57,3 +57,7 @@ mod compare {}
 #[cfg(doctest)]
 #[doc = include_str!("../../ACCURACY.md")]
 mod accuracy {}
+
+#[cfg(doctest)]
+#[doc = include_str!("../firmware/README.md")]
+mod firmware {}

@@ -48,6 +48,8 @@ impl<R, T: fmt::Debug, const NQ: usize, const NV: usize> fmt::Debug for Sample<'
 
 /// The mechanical energy of a robot, in J.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Energy<T> {
     /// `½ vᵀ·M·v`.
     pub kinetic: T,
