@@ -6,7 +6,8 @@
 //!
 //! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), the
 //! [centre of mass](CentroidalDynamics), [inertial parameters](Regressor), [simulation](Simulation),
-//! [linearisation](StateSpaceModel). The derive macro writes the implementations, specialised to one robot.
+//! [linearisation](StateSpaceModel) with [outputs](output), [equilibria](trim), [controllers](control). The derive macro
+//! writes the implementations, specialised to one robot.
 //! No heap, no `unsafe`, no panics, no standard library unless asked for.
 //!
 //! # Conventions
