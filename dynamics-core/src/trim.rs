@@ -229,7 +229,8 @@ where
     /// The equilibrium or motion that was found.
     ///
     /// Forces then balance to 2¹² times the rounding of `T`, relative to the largest of the robot at the guess, and the
-    /// outputs are as near to their targets.
+    /// outputs are as near to their targets. Limits of joints are not looked at; whether the motors can do it,
+    /// [`saturated`](crate::control::saturated) says of `tau`.
     ///
     /// # Errors
     ///
