@@ -6,8 +6,9 @@
 //!
 //! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), the
 //! [centre of mass](CentroidalDynamics), [inertial parameters](Regressor), [simulation](Simulation),
-//! [linearisation](StateSpaceModel), [linear analysis and design](linear). The derive macro writes the implementations,
-//! specialised to one robot. No heap, no `unsafe`, no panics, no standard library unless asked for.
+//! [linearisation](StateSpaceModel) with [outputs](output), [linear analysis and design](linear), [equilibria](trim),
+//! [controllers](control). The derive macro writes the implementations, specialised to one robot. No heap, no `unsafe`,
+//! no panics, no standard library unless asked for.
 //!
 //! # Conventions
 //!

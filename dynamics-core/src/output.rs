@@ -14,7 +14,8 @@
 //! | [`power`] | 1 | of the joint forces, in W |
 //!
 //! Nothing is differenced. Gradients are Jacobians, forces and Coriolis matrices; that of a velocity stands at
-//! [`velocity`], that of the kinetic energy at [`kinetic_energy`].
+//! [`velocity`], that of the kinetic energy at [`kinetic_energy`]. Accelerations of frames and the velocity of the centre of
+//! mass are not among them: their gradients would need code that no robot has.
 
 mod energy;
 mod frame;

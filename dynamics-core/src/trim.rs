@@ -229,7 +229,8 @@ where
     /// The equilibrium or motion that was found.
     ///
     /// Forces then balance to 2¹² times the rounding of `T`, relative to the largest of the robot at the guess, and the
-    /// outputs are as near to their targets.
+    /// outputs are as near to their targets. Limits of joints are not looked at; whether the motors can do it,
+    /// [`saturated`](crate::control::saturated) says of `tau`.
     ///
     /// # Errors
     ///
@@ -239,7 +240,8 @@ where
     /// # Cost
     ///
     /// For each step one `inverse_dynamics_derivatives`, two `inverse_dynamics`, the outputs twice, and about
-    /// `4·n²·(2n + NC)` multiplications for `n = 3·NV + NU`. It never takes more steps than its limit.
+    /// `4·n²·(2n + NC)` multiplications for `n = 3·NV + NU`; on the stack about `n² + 2·n·(NV + NC)` numbers. It never takes
+    /// more steps than its limit.
     pub fn solve<const NX: usize>(&self) -> Result<Trimmed<T, NQ, NV, NU>, TrimFailure<T, NQ, NV, NU>>
     where
         R: StateSpaceModel<T, NQ, NV, NX, NU>,

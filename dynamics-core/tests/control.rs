@@ -223,7 +223,7 @@ fn slotine_and_li_track_with_a_payload_that_nobody_told_of() {
         damping: SVector::repeat(15.0),
         adaptation: SVector::<f64, NP>::repeat(0.5),
         parameters: believed.inertial_parameters(),
-        family: core::marker::PhantomData::<AllParameters>,
+        family: AllParameters,
     };
     let (values, error) = adapt(all, &truth.inertial_parameters());
     assert_never_increases(&values);
@@ -234,7 +234,7 @@ fn slotine_and_li_track_with_a_payload_that_nobody_told_of() {
         damping: SVector::repeat(15.0),
         adaptation: SVector::<f64, NB>::repeat(0.5),
         parameters: believed.base_parameters(),
-        family: core::marker::PhantomData::<BaseParameters>,
+        family: BaseParameters,
     };
     let (values, error) = adapt(base, &truth.base_parameters());
     assert_never_increases(&values);
@@ -243,6 +243,31 @@ fn slotine_and_li_track_with_a_payload_that_nobody_told_of() {
     let fixed = SlotineLi { adaptation: SVector::repeat(1e-12), ..base };
     let (_, stubborn) = adapt(fixed, &truth.base_parameters());
     assert!(stubborn > 5.0 * error, "without adaptation the error stays: {stubborn}");
+}
+
+/// A body in a driven socket, beside its centre of mass.
+#[derive(Dynamics)]
+#[joint(socket: ball, world -> bell)]
+#[body(bell, mass = 2.3, com = [0.04, -0.03, -0.6], inertia = tensor(0.03, 0.002, -0.001, 0.04, 0.002, 0.02))]
+struct Carillon;
+
+/// From two radians away, and spinning. About the fixed axis that it comes to the error is a damped oscillator's again,
+/// of 6 rad/s, which after four seconds is 25·exp(−24) of what it was.
+#[test]
+fn a_ball_joint_finds_its_orientation() {
+    let target = Carillon.integrate(&Carillon.neutral(), &SVector::from([0.4, -0.8, 0.3]));
+    let start = Carillon.integrate(&target, &SVector::from([-1.2, 1.4, 0.8]));
+    let computed = ComputedTorque::critically_damped(SVector::repeat(6.0));
+    let state = State::new(start, SVector::from([1.0, -2.0, 3.0]));
+    let mut simulation = Simulation::new(&Carillon, state, STEP)
+        .expect("a good state")
+        .with_input(|_, state| computed.torque(&Carillon, state, &Reference::rest(target)));
+    for sample in simulation.steps(4000) {
+        sample.expect("it stays finite");
+    }
+    let State { q, v } = simulation.state();
+    let left = Carillon.difference(q, &target);
+    assert!(left.amax() < 1e-7 && v.amax() < 1e-6, "{left} {v}");
 }
 
 #[test]

@@ -213,7 +213,9 @@ fn a_limit_of_steps_is_kept_and_told() {
     let Err(failure) = few.solve() else { panic!("one step is not enough") };
     assert!(matches!(failure, TrimFailure::NotConverged(_)), "{failure:?}");
     assert!(
-        failure.to_string().starts_with("1 steps were not enough: allow more, or guess nearer"),
+        failure
+            .to_string()
+            .starts_with("not converged at step 1: allow more, or guess nearer; so far forces ["),
         "{failure}"
     );
     assert_eq!(Error::from(failure), Error::NotConverged { iterations: 1 });

@@ -1,7 +1,5 @@
 //! Adaptive tracking on the regressor.
 
-use core::marker::PhantomData;
-
 use nalgebra::{SMatrix, SVector};
 
 use super::{Reference, scaled};
@@ -30,7 +28,7 @@ use crate::state::State;
 /// # Example
 ///
 /// ```
-/// use dynamics_core::control::{Reference, SlotineLi};
+/// use dynamics_core::control::{AllParameters, Reference, SlotineLi};
 /// # use dynamics_core::prelude::*;
 /// # fn cycle<R>(robot: &R, measured: &State<f64, 2, 2>, desired: &Reference<f64, 2, 2>) -> SVector<f64, 2>
 /// # where R: Regressor<f64, 2, 2, 26> + StateSpaceModel<f64, 2, 2, 4, 2> {
@@ -40,7 +38,7 @@ use crate::state::State;
 ///     damping: SVector::repeat(20.0),
 ///     adaptation: SVector::repeat(0.5),
 ///     parameters: robot.inertial_parameters(),
-///     family: Default::default(),
+///     family: AllParameters,
 /// };
 /// let tracking = controller.track::<_, 2, 4, 2>(robot, measured, desired);
 /// controller.adapt(&tracking, 1e-3);
@@ -58,7 +56,7 @@ pub struct SlotineLi<T, const NV: usize, const NP: usize, P = AllParameters> {
     /// `π̂`, the parameters as they are thought to be.
     pub parameters: SVector<T, NP>,
     /// Which parameters these are.
-    pub family: PhantomData<P>,
+    pub family: P,
 }
 
 /// What a [`SlotineLi`] block does at one state.

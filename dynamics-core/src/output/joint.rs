@@ -43,7 +43,8 @@ impl Which {
 /// The coordinate of a joint, 1, in rad or m: `y = q_i`.
 ///
 /// Of a ball or free joint, whose coordinates are no displacements, it is the displacement from where it is asked for,
-/// such as `root_joint.rx`, and so zero there.
+/// such as `root_joint.rx`, and so zero there: a row of `C`, but no constraint of a trim, which has
+/// [`orientation`](super::orientation) for that.
 pub fn joint(which: impl Into<Which>) -> Joint {
     Joint { which: which.into(), order: Order::Position }
 }

@@ -38,7 +38,8 @@ impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> fmt::Disp
                 best
             }
             Self::NotConverged(best) => {
-                write!(f, "{} steps were not enough: allow more, or guess nearer; by then", best.iterations)?;
+                let steps = best.iterations;
+                write!(f, "not converged at step {steps}: allow more, or guess nearer; so far")?;
                 best
             }
             Self::Invalid(error) => return error.fmt(f),

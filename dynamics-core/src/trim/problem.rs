@@ -21,6 +21,10 @@ pub(super) struct Point<T, const NQ: usize, const NV: usize, const NU: usize> {
     pub(super) u: SVector<T, NU>,
 }
 
+/// The linear equations of a step: of forces, then of outputs.
+pub(super) type Equations<T, const NV: usize, const NU: usize, const NC: usize> =
+    ([Equation<T, NV, NU>; NV], [Equation<T, NV, NU>; NC]);
+
 /// What is not zero there: forces, and outputs less their targets.
 #[derive(Clone, Copy)]
 pub(super) struct Residual<T, const NV: usize, const NC: usize> {
@@ -122,7 +126,7 @@ where
         point: &Point<T, NQ, NV, NU>,
         scaled: &Residual<T, NV, NC>,
         scales: &Scales<T, NC>,
-    ) -> Result<([Equation<T, NV, NU>; NV], [Equation<T, NV, NU>; NC]), Error>
+    ) -> Result<Equations<T, NV, NU, NC>, Error>
     where
         R: StateSpaceModel<T, NQ, NV, NX, NU>,
     {

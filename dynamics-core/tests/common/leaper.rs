@@ -1,4 +1,5 @@
 //! A robot with everything: a free base, a ball joint, a spring with friction, a follower.
+#![allow(unreachable_pub, missing_docs, reason = "it is a part of tests")]
 
 use dynamics_core::prelude::*;
 
