@@ -126,7 +126,7 @@ where
         let adaptive =
             Adaptive::new(robot, start, LOOSE).and_then(|it| it.with_steps(1.0 / steps, 1.0 / steps));
         let mut adaptive = adaptive.expect("valid").with_input(input);
-        let count = adaptive.steps(1.0).map(|sample| sample.expect("finite")).count();
+        let count = adaptive.steps(1.0).inspect(|sample| assert!(sample.is_ok())).count();
         assert_eq!(count as f64, steps);
         let State { q, v } = *adaptive.state();
         robot.difference(&exact.q, &q).norm() + (v - exact.v).norm()
