@@ -165,6 +165,21 @@ fn a_bell_hangs_below_its_socket() {
     assert!(Bell.check_configuration(&hanging.state.q).is_ok());
 }
 
+/// From anywhere it comes to rest, below its socket or above it, and within the limit of steps.
+#[test]
+fn from_every_guess_a_bell_comes_to_rest() {
+    let weight = 2.3 * G * 0.6;
+    for count in 0..200 {
+        let angle = f64::from(count) * 2.399_963; // the golden one, so that no two guesses are alike
+        let turn = SVector::from([2.0 * angle.sin(), 2.5 * angle.cos(), (3.0 * angle).sin()]);
+        let guess = State::rest(Bell.integrate(&Bell.neutral(), &turn));
+        let found = Trim::new(&Bell, guess).solve();
+        let found = found.unwrap_or_else(|failure| panic!("{turn}: {failure}"));
+        assert!(Bell.gravity_forces(&found.state.q).amax() < TOLERANCE * weight, "{}", found.state.q);
+        assert!(Bell.check_configuration(&found.state.q).is_ok());
+    }
+}
+
 #[test]
 fn an_orientation_can_be_asked_for() {
     let turned = Bell.integrate(&Bell.neutral(), &SVector::from([0.3, 0.5, -0.4]));
