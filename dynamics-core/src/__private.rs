@@ -22,6 +22,7 @@ pub use inverse::{forward_from_inverse, inverse_of};
 pub use manifold::{
     ball_tangent_rate, difference_ball, difference_free, free_tangent_rate, integrate_ball, integrate_free,
 };
+pub use solve::{EliminationTree, Factors};
 
 /// `(sin x, cos x)`.
 #[inline(always)]

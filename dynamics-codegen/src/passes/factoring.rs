@@ -1,0 +1,49 @@
+//! The factors of a mass matrix in a straight line, for the loops that solve with them.
+//!
+//! In loops each row waits for those before it, and what the tree leaves zero is skipped in strips at best. The straight
+//! line of a quadruped's factors has some 700 statements, and its derivatives of forward dynamics take a sixth less.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::Program;
+use super::schedule::schedule;
+use crate::mechanics::composite::Square;
+use crate::mechanics::equations::{Input, Inputs};
+use crate::mechanics::factor::Factor;
+use crate::symbolic::{Expr, Graph, SymbolId};
+
+/// The most statements of such a program: the loops of the run time take over before rustc takes long.
+const LONGEST: usize = 2_500;
+
+/// From the entries of `M` on and below its diagonal, which are its parameters, to `R = L⁻¹`, all of it by rows, and
+/// `1/D`; none where that is too long. `parents` are those by which M is factored.
+pub(super) fn factoring(parents: &[Option<usize>]) -> Option<Program> {
+    let depth = |k: usize| std::iter::successors(parents[k], |&k| parents[k]).count();
+    let statements: usize = (0..parents.len()).map(|k| depth(k) * depth(k)).sum();
+    if statements > LONGEST {
+        return None;
+    }
+    let graph = Graph::new();
+    let n = parents.len();
+    let inputs = Inputs { parameters: n * n, coordinates: 0, dof: 0 };
+    let entry = |i: usize, j: usize| {
+        let symbol = n * i.max(j) + i.min(j);
+        graph.variable(SymbolId(u32::try_from(symbol).expect("fewer than 2^32 entries")))
+    };
+    let M: Square<Expr<'_>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+    let factor = Factor::of(&M, parents.to_vec());
+    let results = [factor.inverse_triangle().concat(), factor.inverse_D].concat();
+    Some(schedule(&graph, inputs, &results, |_| None))
+}
+
+/// `M⁻¹` by such a program, by rows, in numbers.
+pub(super) fn inverse_by(program: &Program, M: &[Vec<f64>]) -> Vec<f64> {
+    let n = M.len();
+    let read = |input: Input| match input {
+        Input::Parameter(k) => M[k / n][k % n],
+        Input::Argument(..) => f64::NAN,
+    };
+    let found = program.evaluate(read, &[]);
+    let (R, inverse_D) = found.split_at(n * n);
+    let entry = |i: usize, j: usize| (0..n).map(|k| R[n * i + k] * inverse_D[k] * R[n * j + k]).sum();
+    (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect()
+}
