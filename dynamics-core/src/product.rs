@@ -42,7 +42,12 @@ pub(crate) const fn strips(rows: usize) -> usize {
 /// Row `k` of a matrix given by columns.
 #[inline(always)]
 pub(crate) fn row_of<T: Scalar, const K: usize, const W: usize>(columns: &[[T; K]; W], k: usize) -> [T; W] {
-    columns.each_ref().map(|column| column.get(k).copied().unwrap_or_else(T::zero))
+    // `map` of arrays is not always inlined.
+    let mut row = [T::zero(); W];
+    for (entry, column) in row.iter_mut().zip(columns) {
+        *entry = column.get(k).copied().unwrap_or_else(T::zero);
+    }
+    row
 }
 
 /// Writes W columns of a product, or adds it to them: in each of the strips of rows the sum of column `k` of `a` times

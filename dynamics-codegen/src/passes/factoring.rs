@@ -47,3 +47,31 @@ pub(super) fn inverse_by(program: &Program, M: &[Vec<f64>]) -> Vec<f64> {
     let entry = |i: usize, j: usize| (0..n).map(|k| R[n * i + k] * inverse_D[k] * R[n * j + k]).sum();
     (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| entry(i, j)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn its_factors_are_those_of_the_inverse() {
+        // A fork: the last two are no ancestors of each other.
+        let parents = [None, Some(0), Some(1), Some(1)];
+        let M = [[5.0, 1.0, 0.5, 0.25], [1.0, 4.0, 0.75, 0.5], [0.5, 0.75, 3.0, 0.0], [0.25, 0.5, 0.0, 2.0]]
+            .map(Vec::from);
+        let inverse = inverse_by(&factoring(&parents).expect("it is short"), &M);
+        for (i, row) in M.iter().enumerate() {
+            for j in 0..4 {
+                let entry: f64 = (0..4).map(|k| row[k] * inverse[4 * k + j]).sum();
+                let expected = if i == j { 1.0 } else { 0.0 };
+                assert!((entry - expected).abs() < 1e-15, "{i}, {j}: {entry}"); // a few roundings of numbers below one
+            }
+        }
+    }
+
+    #[test]
+    fn long_chains_are_left_to_the_loops() {
+        let chain = |n: usize| (0..n).map(|k| k.checked_sub(1)).collect::<Vec<_>>();
+        assert!(factoring(&chain(16)).is_some());
+        assert!(factoring(&chain(32)).is_none());
+    }
+}

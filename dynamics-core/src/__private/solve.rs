@@ -134,6 +134,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     /// About N² multiplications and additions for each column, fused where the target can.
     #[inline]
     pub fn minus_solve<const M: usize>(&self, b: &[[T; N]; M], result: &mut [[T; N]; M]) {
+        // As many columns at a time as leave none for last.
         if M.is_multiple_of(6) && !M.is_multiple_of(COLUMNS) {
             self.minus_solve_by::<6>(b, result);
         } else {
@@ -235,28 +236,25 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize>(
 ) {
     let mut rows = *m;
     let strip = first / STRIP;
-    let beyond = |_: usize| {
-        let joints = tree.beyond(strip);
-        joints.filter(|&k| k >= first + W)
-    };
-    let factors = |k: usize| {
-        minus_dl.get(k).and_then(|row| part::<T, N, W>(row, first)).unwrap_or_else(|| [T::zero(); W])
-    };
+    let beyond = |_: usize| tree.beyond(strip).filter(|&k| k >= first + W);
+    let factors = |k: usize| minus_dl.get(k).map_or([T::zero(); W], |row| part(row, first));
     multiply::<T, true, _, _, _>(l, factors, beyond, 0..strip + 1, &mut rows);
     for w in (0..W).rev() {
-        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
         let k = first + w;
-        let inverse = T::one() / entry(row, k);
-        let scaled = row.map(|x| x * inverse);
+        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
+        let (Some(l), Some(minus_dl), Some(d)) = (l.get_mut(k), minus_dl.get_mut(k), inverse_d.get_mut(k))
+        else {
+            continue;
+        };
+        *d = T::one() / entry(row, k);
+        for ((l, minus_dl), x) in l.iter_mut().zip(&mut *minus_dl).zip(&*row) {
+            (*l, *minus_dl) = (*x * *d, -*x);
+        }
         for (v, other) in before.iter_mut().enumerate() {
-            let factor = -entry(row, first + v);
-            for (x, l) in other.iter_mut().zip(&scaled) {
+            let factor = entry(minus_dl, first + v);
+            for (x, l) in other.iter_mut().zip(&*l) {
                 *x = factor.mul_add(*l, *x);
             }
-        }
-        if let (Some(l), Some(minus_dl), Some(d)) = (l.get_mut(k), minus_dl.get_mut(k), inverse_d.get_mut(k))
-        {
-            (*l, *minus_dl, *d) = (scaled, row.map(|x| -x), inverse);
         }
     }
 }
@@ -292,10 +290,7 @@ fn invert_rows<T: Scalar, const N: usize, const W: usize>(
         }
     }
     let block = first / STRIP;
-    let below = |_: usize| {
-        let joints = tree.below(block);
-        joints.take_while(|&k| k < first)
-    };
+    let below = |_: usize| tree.below(block).take_while(|&k| k < first);
     multiply::<T, true, _, _, _>(inverse, |k| row_of(l, k).map(|x| -x), below, 0..block + 1, &mut rows);
     for (w, l) in l.iter().enumerate() {
         let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
@@ -386,8 +381,8 @@ fn symmetric<T: Scalar>([[a, b, c, d], [_, f, g, h], [_, _, k, l], [_, _, _, p]]
 
 /// W entries from `first` on.
 #[inline(always)]
-fn part<T: Scalar, const N: usize, const W: usize>(x: &[T; N], first: usize) -> Option<[T; W]> {
-    x.get(first..)?.first_chunk::<W>().copied()
+fn part<T: Scalar, const N: usize, const W: usize>(x: &[T; N], first: usize) -> [T; W] {
+    x.get(first..).and_then(<[T]>::first_chunk).copied().unwrap_or([T::zero(); W])
 }
 
 #[inline(always)]
