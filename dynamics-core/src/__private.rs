@@ -5,6 +5,8 @@ pub mod manifold;
 pub mod recursion;
 pub mod solve;
 
+pub use core::option::Option::{None, Some};
+
 pub use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 pub use crate::centroidal::CentroidalDynamics;
@@ -23,6 +25,7 @@ pub use manifold::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, difference_ball, difference_free, free_rate,
     free_rate_transposed, free_tangent_rate, integrate_ball, integrate_free,
 };
+pub use solve::{EliminationTree, Factors};
 
 /// `(sin x, cos x)`.
 #[inline(always)]

@@ -6,10 +6,10 @@ use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::scalar::Scalar;
 
-/// So many rows of a product are summed at a time: what fits into registers, in lanes.
-const STRIP: usize = 8;
-/// So many columns.
-const COLUMNS: usize = 4;
+/// So many rows of a product are summed at a time: what is one register, in lanes.
+pub(crate) const STRIP: usize = 4;
+/// So many columns, which keeps the sums in registers.
+pub(crate) const COLUMNS: usize = 8;
 
 /// `A·B`, R×C.
 ///
@@ -22,76 +22,98 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     b: &SMatrix<T, K, C>,
 ) -> SMatrix<T, R, C> {
     let mut columns = [[T::zero(); R]; C];
-    product_of_nonzero(&a.data.0, &b.data.0, |_| 0..K, &mut columns);
+    let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
+    let (factors, factors_of_rest) = b.data.0.as_chunks::<COLUMNS>();
+    for (block, factors) in blocks.iter_mut().zip(factors) {
+        multiply::<T, false, _, _, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), block);
+    }
+    for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
+        let (column, factors) = (core::array::from_mut(column), core::array::from_ref(factors));
+        multiply::<T, false, _, _, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), column);
+    }
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
-/// Writes `A·B`, by columns, where in a strip of rows A is zero but for the columns `nonzero(rows)`.
-#[inline]
-pub(crate) fn product_of_nonzero<T: Scalar, const R: usize, const K: usize, const C: usize>(
-    a: &[[T; R]; K],
-    b: &[[T; K]; C],
-    nonzero: impl Fn(Range<usize>) -> Range<usize> + Copy,
-    columns: &mut [[T; R]; C],
-) {
-    let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
-    let (factors, factors_of_rest) = b.as_chunks::<COLUMNS>();
-    for (block, factors) in blocks.iter_mut().zip(factors) {
-        multiply(a, factors, block, nonzero);
-    }
-    for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
-        multiply(a, core::array::from_ref(factors), core::array::from_mut(column), nonzero);
-    }
+/// Into how many strips so many rows fall.
+pub(crate) const fn strips(rows: usize) -> usize {
+    rows.div_ceil(STRIP)
 }
 
-/// W columns of the product: strip by strip of their rows, each summed over the columns of `a` in registers.
+/// Row `k` of a matrix given by columns.
 #[inline(always)]
-fn multiply<T: Scalar, const R: usize, const K: usize, const W: usize>(
-    a: &[[T; R]; K],
-    factors: &[[T; K]; W],
+pub(crate) fn row_of<T: Scalar, const K: usize, const W: usize>(columns: &[[T; K]; W], k: usize) -> [T; W] {
+    // `map` of arrays is not always inlined.
+    let mut row = [T::zero(); W];
+    for (entry, column) in row.iter_mut().zip(columns) {
+        *entry = column.get(k).copied().unwrap_or_else(T::zero);
+    }
+    row
+}
+
+/// Writes W columns of a product, or adds it to them: in each of the strips of rows the sum of column `k` of `a` times
+/// `factors(k)` over all `k` in `terms(strip)`. The sums of a strip stay in registers.
+#[inline(always)]
+pub(crate) fn multiply<
+    T: Scalar,
+    const ADD: bool,
+    const R: usize,
+    const W: usize,
+    I: Iterator<Item = usize>,
+>(
+    a: &[[T; R]],
+    factors: impl Fn(usize) -> [T; W],
+    terms: impl Fn(usize) -> I,
+    strips: Range<usize>,
     result: &mut [[T; R]; W],
-    nonzero: impl Fn(Range<usize>) -> Range<usize>,
 ) {
-    let terms = |rows: Range<usize>| {
-        let range = nonzero(rows);
-        a.iter().enumerate().take(range.end).skip(range.start)
-    };
-    for strip in 0..R / STRIP {
-        let mut sums = [[T::zero(); STRIP]; W];
-        for (k, column) in terms(strip * STRIP..(strip + 1) * STRIP) {
-            if let Some(part) = column.as_chunks::<STRIP>().0.get(strip) {
-                add_multiples(&mut sums, part, factors, k);
+    for strip in strips {
+        if strip < R / STRIP {
+            let mut sums = [[T::zero(); STRIP]; W];
+            if ADD {
+                for (sums, column) in sums.iter_mut().zip(&*result) {
+                    *sums = column.as_chunks().0.get(strip).copied().unwrap_or(*sums);
+                }
             }
-        }
-        for (result, sums) in result.iter_mut().zip(sums) {
-            if let Some(part) = result.as_chunks_mut::<STRIP>().0.get_mut(strip) {
-                *part = sums;
+            for k in terms(strip) {
+                if let Some(part) = a.get(k).and_then(|column| column.as_chunks::<STRIP>().0.get(strip)) {
+                    add_multiples(&mut sums, part, factors(k));
+                }
             }
-        }
-    }
-    let mut sums = [[T::zero(); STRIP]; W];
-    for (k, column) in terms(R / STRIP * STRIP..R) {
-        add_multiples(&mut sums, column.as_chunks::<STRIP>().1, factors, k);
-    }
-    for (result, sums) in result.iter_mut().zip(sums) {
-        for (entry, sum) in result.as_chunks_mut::<STRIP>().1.iter_mut().zip(sums) {
-            *entry = sum;
+            for (column, sums) in result.iter_mut().zip(sums) {
+                if let Some(part) = column.as_chunks_mut::<STRIP>().0.get_mut(strip) {
+                    *part = sums;
+                }
+            }
+        } else {
+            // What is left: fewer rows than a strip has.
+            let mut sums = [[T::zero(); STRIP]; W];
+            if ADD {
+                for (sums, column) in sums.iter_mut().zip(&*result) {
+                    for (sum, value) in sums.iter_mut().zip(column.as_chunks::<STRIP>().1) {
+                        *sum = *value;
+                    }
+                }
+            }
+            for k in terms(strip) {
+                if let Some(column) = a.get(k) {
+                    add_multiples(&mut sums, column.as_chunks::<STRIP>().1, factors(k));
+                }
+            }
+            for (column, sums) in result.iter_mut().zip(sums) {
+                for (value, sum) in column.as_chunks_mut::<STRIP>().1.iter_mut().zip(sums) {
+                    *value = sum;
+                }
+            }
         }
     }
 }
 
-/// Adds to each sum the part, times the column's `k`-th factor.
+/// Adds to each sum the part, times its own factor.
 #[inline(always)]
-fn add_multiples<T: Scalar, const K: usize, const W: usize>(
-    sums: &mut [[T; STRIP]; W],
-    part: &[T],
-    factors: &[[T; K]; W],
-    k: usize,
-) {
-    for (sums, factors) in sums.iter_mut().zip(factors) {
-        let Some(factor) = factors.get(k) else { continue };
+fn add_multiples<T: Scalar, const W: usize>(sums: &mut [[T; STRIP]; W], part: &[T], factors: [T; W]) {
+    for (sums, factor) in sums.iter_mut().zip(factors) {
         for (sum, a) in sums.iter_mut().zip(part) {
-            *sum = a.mul_add(*factor, *sum);
+            *sum = a.mul_add(factor, *sum);
         }
     }
 }

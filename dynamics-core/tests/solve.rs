@@ -1,41 +1,42 @@
 //! The hidden solver against nalgebra, on a chain and on a branched tree.
 #![cfg(feature = "std")]
 
-use dynamics_core::__private::solve::Factors;
-use dynamics_core::__private::{forward_from_inverse, inverse_of};
+use dynamics_core::__private::{EliminationTree, Factors, forward_from_inverse, inverse_of};
 use dynamics_core::InverseDynamicsDerivatives;
 use dynamics_core::nalgebra::SMatrix;
 
 /// A few roundings of numbers of the size of one, times a condition of some hundred.
 const TOLERANCE: f64 = 1e-12;
 
-const CHAIN: [&[usize]; 5] = [&[], &[0], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3]];
-const TREE: [&[usize]; 7] = [&[], &[0], &[1, 0], &[0], &[3, 0], &[4, 3, 0], &[3, 0]];
+const CHAIN: [Option<usize>; 5] = [None, Some(0), Some(1), Some(2), Some(3)];
+const TREE: [Option<usize>; 7] = [None, Some(0), Some(1), Some(0), Some(3), Some(4), Some(3)];
 
 /// Longer than a strip of lanes, and than a whole number of them.
-const LONG: [&[usize]; 21] = [
-    &[],
-    &[0],
-    &[1, 0],
-    &[2, 1, 0],
-    &[0],
-    &[4, 0],
-    &[5, 4, 0],
-    &[],
-    &[7],
-    &[8, 7],
-    &[9, 8, 7],
-    &[10, 9, 8, 7],
-    &[11, 10, 9, 8, 7],
-    &[7],
-    &[13, 7],
-    &[14, 13, 7],
-    &[],
-    &[16],
-    &[17, 16],
-    &[18, 17, 16],
-    &[19, 18, 17, 16],
+const LONG: [Option<usize>; 21] = [
+    None,
+    Some(0),
+    Some(1),
+    Some(2),
+    Some(0),
+    Some(4),
+    Some(5),
+    None,
+    Some(7),
+    Some(8),
+    Some(9),
+    Some(10),
+    Some(11),
+    Some(7),
+    Some(13),
+    Some(14),
+    None,
+    Some(16),
+    Some(17),
+    Some(18),
+    Some(19),
 ];
+/// As many as are solved six at a time.
+const SIX: [Option<usize>; 6] = [None, Some(0), Some(0), Some(2), None, Some(4)];
 
 fn random_numbers(mut seed: u64) -> impl FnMut() -> f64 {
     move || {
@@ -46,38 +47,46 @@ fn random_numbers(mut seed: u64) -> impl FnMut() -> f64 {
 
 /// A positive definite matrix with the sparsity of a tree: `Lᵀ D L`.
 fn mass_matrix<const N: usize>(
-    ancestors: &[&[usize]; N],
+    parents: &[Option<usize>; N],
     random: &mut impl FnMut() -> f64,
 ) -> SMatrix<f64, N, N> {
     let mut l = SMatrix::<f64, N, N>::identity();
     let mut d = SMatrix::<f64, N, N>::zeros();
-    for (i, ancestors) in ancestors.iter().enumerate() {
+    for i in 0..N {
         d[(i, i)] = random() + 1.0;
-        for &j in *ancestors {
+        for j in std::iter::successors(parents[i], |&k| parents[k]) {
             l[(i, j)] = random();
         }
     }
     l.transpose() * d * l
 }
 
-fn agrees<const N: usize>(ancestors: &[&[usize]; N]) {
+fn agrees<const N: usize>(parents: &[Option<usize>; N], tree: &'static EliminationTree<N>) {
     let mut random = random_numbers(N as u64);
-    let m = mass_matrix(ancestors, &mut random);
+    let m = mass_matrix(parents, &mut random);
     let mut matrix = || SMatrix::<f64, N, N>::from_fn(|_, _| random());
     let inverse = InverseDynamicsDerivatives { dtau_dq: matrix(), dtau_dv: matrix(), dtau_da: m };
-    let forward = forward_from_inverse(&inverse);
+    let forward = forward_from_inverse(&inverse, &Factors::of(&m.data.0, tree));
     assert!((m * forward.da_dq + inverse.dtau_dq).amax() < TOLERANCE);
     assert!((m * forward.da_dv + inverse.dtau_dv).amax() < TOLERANCE);
     assert!((m * forward.da_dtau - SMatrix::identity()).amax() < TOLERANCE);
-    assert_eq!(inverse_of(&m), forward.da_dtau);
+    assert_eq!(forward.da_dtau, forward.da_dtau.transpose());
+    assert_eq!(inverse_of(&m, tree), forward.da_dtau);
 }
 
 #[test]
 fn solves_what_nalgebra_multiplies() {
-    agrees(&CHAIN);
-    agrees(&TREE);
-    agrees(&[&[]]);
-    agrees(&LONG);
+    agrees(&CHAIN, const { &EliminationTree::of(CHAIN) });
+    agrees(&TREE, const { &EliminationTree::of(TREE) });
+    agrees(&[None], const { &EliminationTree::of([None]) });
+    agrees(&SIX, const { &EliminationTree::of(SIX) });
+    agrees(&LONG, const { &EliminationTree::of(LONG) });
+}
+
+#[test]
+fn where_nothing_need_be_zero_any_matrix_will_do() {
+    agrees(&TREE, const { &EliminationTree::CHAIN });
+    agrees(&LONG, const { &EliminationTree::CHAIN });
 }
 
 #[test]
@@ -89,8 +98,9 @@ fn what_lies_above_the_diagonal_is_not_read() {
     }
     let solved = |m: &[[f64; 7]; 7]| {
         let (mut x, mut inverse) = ([[0.0; 7]; 2], [[0.0; 7]; 7]);
-        Factors::of(m).minus_solve(&[[1.0; 7], [2.0; 7]], &mut x);
-        Factors::of(m).inverse(&mut inverse);
+        let factors = Factors::of(m, const { &EliminationTree::of(TREE) });
+        factors.minus_solve(&[[1.0; 7], [2.0; 7]], &mut x);
+        factors.inverse(&mut inverse);
         (x, inverse)
     };
     assert_eq!(solved(&rows), solved(&clean));
@@ -100,8 +110,8 @@ fn what_lies_above_the_diagonal_is_not_read() {
 #[test]
 fn nothing_to_solve_is_no_error() {
     let mut no_columns: [[f64; 7]; 0] = [];
-    Factors::of(&[[1.0; 7]; 7]).minus_solve(&[], &mut no_columns);
+    Factors::of(&[[1.0; 7]; 7], const { &EliminationTree::CHAIN }).minus_solve(&[], &mut no_columns);
     let mut empty: [[f64; 0]; 3] = [[]; 3];
-    Factors::of(&[]).minus_solve(&[[]; 3], &mut empty);
+    Factors::of(&[], const { &EliminationTree::CHAIN }).minus_solve(&[[]; 3], &mut empty);
     assert_eq!(empty, [[]; 3]);
 }

@@ -1,5 +1,6 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
+use super::factoring::factoring;
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans, calls};
 use super::schedule::{arithmetic, schedule};
@@ -52,7 +53,7 @@ impl Compiled<'_> {
         self.methods.iter().find(|compiled| compiled.method == method).and_then(|compiled| {
             match &compiled.plan {
                 Plan::StraightLine { program, .. } => Some(program),
-                Plan::Loops | Plan::Table { .. } => None,
+                Plan::Loops { .. } | Plan::Table { .. } => None,
             }
         })
     }
@@ -61,7 +62,7 @@ impl Compiled<'_> {
     pub fn programs(&self) -> impl Iterator<Item = &Program> {
         let of_methods = self.methods.iter().filter_map(|method| match &method.plan {
             Plan::StraightLine { program, .. } => Some(program),
-            Plan::Loops | Plan::Table { .. } => None,
+            Plan::Loops { .. } | Plan::Table { .. } => None,
         });
         std::iter::once(&self.companion.preparation).chain(&self.table).chain(of_methods)
     }
@@ -88,9 +89,10 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
     let inputs = derivation.inputs;
     let plan = Plans::of(model);
     let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
+    let is_solved = |method: Method| methods.contains(&method) && plan.is_solved(method);
     let shares = |method: Method| {
         let both = method.bundle_and_part().filter(|_| inputs.dof > LARGEST_TO_SHARE_ALL)?;
-        both.into_iter().all(is_straight).then_some(both[0])
+        (both.into_iter().all(is_straight) || both.into_iter().all(is_solved)).then_some(both[0])
     };
     let has_own = |method: Method| shares(method).is_none_or(|bundle| bundle == method);
     let straight = methods.iter().copied().filter(|&method| is_straight(method) && has_own(method));
@@ -124,8 +126,18 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
                 (Plan::StraightLine { blocks, program }, cost)
             }
             Form::Loops => {
-                let cost = cost_of_loops(method, inputs.dof, &compiled);
-                (Plan::Loops, cost)
+                let parents = plan.parents.clone();
+                let factoring = match method {
+                    Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
+                        factoring(&parents)
+                    }
+                    _ => None,
+                };
+                // Methods come after those that they call.
+                let called = compiled.iter().filter(|known| calls(method).contains(&known.method));
+                let own = plan.cost_of_loops(method, factoring.as_ref());
+                let cost = called.fold(own, |sum, called| sum + called.cost);
+                (Plan::Loops { parents, factoring }, cost)
             }
             form @ (Form::Table | Form::Lanes) => {
                 let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));
@@ -146,31 +158,6 @@ pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> C
         false => vec![],
     };
     Compiled { graph, inputs, table, methods: compiled, companion, parameter_names, base_parameter_names }
-}
-
-/// What the loops of the run time cost, with the methods that they call.
-fn cost_of_loops(method: Method, dof: usize, compiled: &[CompiledMethod<'_>]) -> Cost {
-    let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
-    // A factorisation and the inverse of the factor are a sixth of n³ each, and half of it each product with the factor:
-    // one of them for M⁻¹, two for each matrix that is solved for.
-    let (sixths, divisions) = match method {
-        Method::InverseDynamicsWithDerivatives => (0, 0),
-        Method::InverseMassMatrix => (2 + 3, dof),
-        _ => (2 + 3 + 12, dof),
-    };
-    let of_products = count(sixths * dof * dof * dof / 6);
-    let mut cost = Cost {
-        multiplications: of_products,
-        additions: of_products,
-        divisions: count(divisions),
-        ..Cost::default()
-    };
-    for &part in calls(method) {
-        // Methods come after those that they call.
-        cost = cost
-            + compiled.iter().find(|known| known.method == part).map_or(Cost::default(), |known| known.cost);
-    }
-    cost
 }
 
 /// The unit of length in which inverse dynamics is cheapest.

@@ -1,6 +1,7 @@
 //! From equations to programs: what runs once, what runs in each call, and in which order.
 
 mod compile;
+mod factoring;
 mod hoist;
 mod latency;
 mod parameters;

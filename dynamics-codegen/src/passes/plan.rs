@@ -37,7 +37,12 @@ pub enum Plan<'g> {
     },
     /// By the run time's loops over rows and columns: derivatives of forward dynamics from those of inverse dynamics,
     /// and `M⁻¹` from `M`; a bundle by its parts.
-    Loops,
+    Loops {
+        /// By which M is factored: the speed before each on its way to the base.
+        parents: Vec<Option<usize>>,
+        /// From M to its factors, where that is short enough for a straight line.
+        factoring: Option<Program>,
+    },
     /// By the run time's recursion over a table of links.
     Table {
         /// For the kinematics of a frame: its link, and the program of its pose in that link.
@@ -58,7 +63,9 @@ pub(super) enum Form {
 
 /// How each method of a robot is computed.
 pub(super) struct Plans {
-    /// The joints between each joint and the base.
+    /// The speed before each on its way to the base.
+    pub(super) parents: Vec<Option<usize>>,
+    /// All of them.
     ancestors: Vec<Vec<usize>>,
     frames: usize,
     /// For each frame the joints below it, in sum.
@@ -77,7 +84,7 @@ impl Plans {
         let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
         let suits_lanes = suits_lanes(links);
-        Self { frames: model.tree.frames.len(), frame_joints, ancestors, suits_lanes }
+        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
@@ -104,6 +111,11 @@ impl Plans {
             }
             _ => Form::StraightLine,
         }
+    }
+
+    /// Whether the method solves for many right-hand sides by loops.
+    pub(super) fn is_solved(&self, method: Method) -> bool {
+        method != Method::InverseDynamicsWithDerivatives && self.form(method) == Form::Loops
     }
 
     /// How many joints it takes for a method to be sooner done in lanes, if it can be.
@@ -154,6 +166,26 @@ impl Plans {
             ancestors.len() * ancestors.len() + before
         };
         self.ancestors.iter().map(column).sum()
+    }
+
+    /// What the loops of the run time cost, without the methods that they call: of factors, by their program if there is
+    /// one; of each half of M⁻¹ once; and of two products with a factor for each column that is solved for.
+    pub(super) fn cost_of_loops(&self, method: Method, factoring: Option<&Program>) -> Cost {
+        let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
+        let products =
+            |value| Cost { multiplications: count(value), additions: count(value), ..Cost::default() };
+        let (n, depths) = (self.ancestors.len(), self.ancestors.iter().map(Vec::len));
+        let factors = match factoring {
+            Some(program) => program.cost(),
+            None => Cost { divisions: count(n), ..products(depths.clone().map(|depth| depth * depth).sum()) },
+        };
+        let inverse = depths.clone().enumerate().map(|(k, depth)| (n - k) * (depth + 1)).sum();
+        let solved = 2 * n * (2 * depths.sum::<usize>() + n);
+        match method {
+            Method::InverseDynamicsWithDerivatives => Cost::default(),
+            Method::InverseMassMatrix => factors + products(inverse),
+            _ => factors + products(inverse + solved),
+        }
     }
 
     /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since

@@ -5,24 +5,24 @@
 use nalgebra::SMatrix;
 
 use super::columns;
-use super::solve::Factors;
+use super::solve::{EliminationTree, Factors};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
 /// `∂a/∂q = −M⁻¹ ∂τ/∂q`, `∂a/∂v = −M⁻¹ ∂τ/∂v` and `∂a/∂τ = M⁻¹`, from the derivatives of inverse dynamics at the
-/// acceleration that τ causes.
+/// acceleration that τ causes, and the factors of its `∂τ/∂a = M`.
 ///
 /// The former two are solved for: a product with `M⁻¹` would take half the time, and leave a residual that grows with
 /// the condition of M.
 ///
 /// # Cost
 ///
-/// One factorisation, and five products of a triangular with a square matrix.
+/// Five products of a triangular with a square matrix.
 #[inline]
 pub fn forward_from_inverse<T: Scalar, const N: usize>(
     inverse: &InverseDynamicsDerivatives<T, N>,
+    factors: &Factors<T, N>,
 ) -> ForwardDynamicsDerivatives<T, N> {
-    let factors = Factors::of(&inverse.dtau_da.data.0);
     let mut forward = ForwardDynamicsDerivatives { da_dq: zeros(), da_dv: zeros(), da_dtau: zeros() };
     factors.minus_solve(&inverse.dtau_dq.data.0, &mut forward.da_dq.data.0);
     factors.minus_solve(&inverse.dtau_dv.data.0, &mut forward.da_dv.data.0);
@@ -36,9 +36,12 @@ pub fn forward_from_inverse<T: Scalar, const N: usize>(
 ///
 /// One factorisation, and a product of a triangular with a square matrix.
 #[inline]
-pub fn inverse_of<T: Scalar, const N: usize>(m: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
+pub fn inverse_of<T: Scalar, const N: usize>(
+    m: &SMatrix<T, N, N>,
+    tree: &'static EliminationTree<N>,
+) -> SMatrix<T, N, N> {
     let mut inverse = zeros();
-    Factors::of(&m.data.0).inverse(&mut inverse.data.0);
+    Factors::of(&m.data.0, tree).inverse(&mut inverse.data.0);
     inverse
 }
 

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::body::{self, Body, Context};
+use super::names;
 use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
 use crate::passes::{CompiledMethod, Cost, Plan, Program, Sizes};
 
@@ -48,7 +49,16 @@ pub(super) fn write(
                 }
             }
         }
-        Plan::Loops => by_loops(*method, scalar, context.sizes),
+        Plan::Loops { parents, factoring } => {
+            let body = || by_loops(*method, parents, factoring.as_ref(), context, scalar);
+            match *shares {
+                None => body(),
+                Some(bundle) => {
+                    shared = (bundle == *method).then(body);
+                    by_shared(*method, bundle, scalar, context.sizes)
+                }
+            }
+        }
         Plan::Table { frame: None, in_lanes } => by_table(*method, *in_lanes, scalar, context.sizes),
         Plan::Table { frame: Some((link, program)), .. } => {
             frame_by_table(*method, *link, program, context, scalar, robot)
@@ -150,24 +160,78 @@ fn frame_by_table(
 }
 
 /// The body that leaves the matrices to the run time's loops.
-fn by_loops(method: Method, scalar: &str, sizes: Sizes) -> String {
+fn by_loops(
+    method: Method,
+    parents: &[Option<usize>],
+    factoring: Option<&Program>,
+    context: &Context<'_>,
+    scalar: &str,
+) -> String {
+    let sizes = context.sizes;
     let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
-    let body = match method {
-        Method::InverseMassMatrix => "        inverse_of(&self.mass_matrix(q))\n",
-        Method::InverseDynamicsWithDerivatives => {
-            "        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))\n"
+    let mut text = format!("    fn {}(&self{arguments}) -> {returned} {{\n", method.name());
+    if method == Method::InverseDynamicsWithDerivatives {
+        text.push_str(
+            "        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))\n    }\n",
+        );
+        return text;
+    }
+    let _ = writeln!(text, "        let tree = const {{ &EliminationTree::of({parents:?}) }};");
+    let factors = match (method, factoring) {
+        (Method::InverseMassMatrix, _) => {
+            text.push_str("        inverse_of(&self.mass_matrix(q), tree)\n    }\n");
+            return text;
         }
-        Method::ForwardDynamicsWithDerivatives => {
-            "        let a = self.forward_dynamics(q, v, tau);\n        \
-             let derivatives = forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a));\n        \
-             (a, derivatives)\n"
-        }
-        _ => {
-            "        let a = self.forward_dynamics(q, v, tau);\n        \
-             forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a))\n"
-        }
+        (_, Some(program)) => factors(program, context),
+        (_, None) => "        let factors = Factors::of(&inverse.dtau_da.data.0, tree);\n".to_owned(),
     };
-    format!("    fn {}(&self{arguments}) -> {returned} {{\n{body}    }}\n", method.name())
+    text.push_str("        let a = self.forward_dynamics(q, v, tau);\n");
+    text.push_str("        let inverse = self.inverse_dynamics_derivatives(q, v, &a);\n");
+    text.push_str(&factors);
+    text.push_str(match method {
+        Method::ForwardDynamicsWithDerivatives => {
+            "        (a, forward_from_inverse(&inverse, &factors))\n    }\n"
+        }
+        _ => "        forward_from_inverse(&inverse, &factors)\n    }\n",
+    });
+    text
+}
+
+/// The statements from the mass matrix to its factors.
+fn factors(program: &Program, context: &Context<'_>) -> String {
+    let n = context.sizes.inputs.dof;
+    let parameters: Vec<String> = (0..n * n).map(|k| names::entry("m", k / n, Some(k % n), n)).collect();
+    let (fields, literals) = (&[], context.literals.clone());
+    let context = Context { fields, parameters: &parameters, literals, ..*context };
+    let matrix = (0..n * n).map(|k| names::entry("r", k / n, Some(k % n), n));
+    let wanted: Vec<String> = matrix.chain((0..n).map(|k| names::entry("d", k, None, n))).collect();
+    let body = body::write(program, &wanted, &context, 2);
+    let is_read = |k: usize| body.inputs.iter().any(|(input, _)| *input == Input::Parameter(k));
+    let column = |j: usize| {
+        let entry = |i: usize| if is_read(n * i + j) { parameters[n * i + j].as_str() } else { "_" };
+        format!("[{}]", shortened(&(0..n).map(entry).collect::<Vec<_>>()))
+    };
+    let entries: Vec<&str> = body.results.iter().map(String::as_str).collect();
+    let (r, d) = entries.split_at(n * n);
+    let lines = |texts: Vec<String>| {
+        texts.iter().map(|text| format!("                {text},\n")).collect::<String>()
+    };
+    let columns = |step: usize, skip: usize| {
+        let column = |k: usize| {
+            let entries: Vec<&str> = (0..n).map(|i| r[k * skip + i * step]).collect();
+            format!("[{}]", entries.join(", "))
+        };
+        lines((0..n).map(column).collect())
+    };
+    format!(
+        "        let [\n{}        ] = inverse.dtau_da.data.0;\n\n{}\n        let factors = Factors {{\n            tree,\n            \
+         r: [\n{}            ],\n            r_transposed: [\n{}            ],\n            inverse_d: [{}],\n        }};\n",
+        lines((0..n).map(column).collect()),
+        body.statements,
+        columns(n, 1),
+        columns(1, n),
+        d.join(", ")
+    )
 }
 
 /// Whether the method belongs to a frame, and is given the robot.

@@ -5,7 +5,7 @@
 use nalgebra::SVector;
 
 use super::Tree;
-use crate::__private::forward_from_inverse;
+use crate::__private::{EliminationTree, Factors, forward_from_inverse};
 use crate::dynamics::ForwardDynamicsDerivatives;
 use crate::scalar::Scalar;
 
@@ -20,6 +20,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
         tau: &SVector<T, NV>,
     ) -> ForwardDynamicsDerivatives<T, NV> {
         let a = self.forward_dynamics(q, v, tau);
-        forward_from_inverse(&self.inverse_dynamics_derivatives(q, v, &a))
+        let inverse = self.inverse_dynamics_derivatives(q, v, &a);
+        let factors = Factors::of(&inverse.dtau_da.data.0, const { &EliminationTree::CHAIN });
+        forward_from_inverse(&inverse, &factors)
     }
 }
