@@ -4,6 +4,7 @@
 use dynamics_core::lanes::{Lanes, Native};
 use dynamics_core::prelude::*;
 use dynamics_core::rollout::RolloutError;
+use dynamics_core::simulate::Explicit;
 use dynamics_tests::random::Random;
 use dynamics_tests::zoo::joints::free_box::FreeBox;
 use rayon::ThreadPoolBuilder;
@@ -66,7 +67,7 @@ impl Given {
     /// By rollouts in lanes `L`: all samples, and the times of the last finite states.
     fn together<L: Lanes<Element = f64>>(
         &self,
-        integrator: impl Integrator + Copy + Sync,
+        integrator: impl Explicit + Copy + Sync,
         threads: usize,
     ) -> (Vec<Start>, Vec<f64>) {
         let rollouts = Rollouts::new(STEP, STEPS).unwrap().every(EVERY).with_integrator(integrator);
@@ -86,7 +87,7 @@ impl Given {
         (samples, sound)
     }
 
-    fn agree<L: Lanes<Element = f64>>(&self, integrator: impl Integrator + Copy + Sync, threads: usize) {
+    fn agree<L: Lanes<Element = f64>>(&self, integrator: impl Explicit + Copy + Sync, threads: usize) {
         let (samples, sound) = self.together::<L>(integrator, threads);
         let each = STEPS.div_ceil(EVERY);
         for k in 0..self.starts.len() {
