@@ -238,6 +238,7 @@ fn joint_infos(
         let (coordinates, speeds) = (joint.kind.coordinates(), joint.kind.speeds());
         JointInfo {
             name: joint.name.text.clone(),
+            kind: joint.kind,
             q: q..q + coordinates,
             v: v..v + speeds,
             limits: vec![limits(joint, values, diags); speeds],

@@ -23,6 +23,7 @@ pub use tree::{Drive, Frame, Link, Motion, Passive, Tree};
 
 use std::ops::Range;
 
+use crate::spec::JointKind;
 use crate::symbolic::{Expr, SymbolId};
 
 /// A field of the robot's struct that the equations depend on.
@@ -80,6 +81,8 @@ pub struct Limits {
 pub struct JointInfo {
     /// The joint's name.
     pub name: String,
+    /// How it moves.
+    pub kind: JointKind,
     /// Its coordinates: one, or four of a ball joint, seven of a free one.
     pub q: Range<usize>,
     /// Its speeds, one for each degree of freedom.
@@ -88,6 +91,31 @@ pub struct JointInfo {
     pub limits: Vec<Limits>,
     /// Whether its speeds have inputs.
     pub actuated: bool,
+}
+
+impl JointInfo {
+    /// What its coordinates are called: `hinge`, or where it has several `root_joint.x` to `root_joint.qw`.
+    pub fn coordinate_names(&self) -> Vec<String> {
+        self.named(self.kind.coordinate_parts())
+    }
+
+    /// What the directions are called in which it can be displaced: as its coordinates, but of quaternions `rx` to `rz`
+    /// and of positions in the body's axes `dx` to `dz`.
+    pub fn displacement_names(&self) -> Vec<String> {
+        self.named(self.kind.displacement_parts())
+    }
+
+    /// What its speeds are called: `hinge`, or where it has several `root_joint.vx` to `root_joint.wz`.
+    pub fn speed_names(&self) -> Vec<String> {
+        self.named(self.kind.speed_parts())
+    }
+
+    fn named(&self, parts: &[&str]) -> Vec<String> {
+        match parts {
+            [] => vec![self.name.clone()],
+            parts => parts.iter().map(|part| format!("{}.{part}", self.name)).collect(),
+        }
+    }
 }
 
 /// A link as users see it.

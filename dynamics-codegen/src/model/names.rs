@@ -122,6 +122,7 @@ const COMMON: &[&str] = &[
     "Kinematics",
     "Linearization",
     "Mechanism",
+    "Motion",
     "One",
     "Pose",
     "Regressor",
@@ -131,8 +132,10 @@ const COMMON: &[&str] = &[
     "Sample",
     "Scalar",
     "SemiImplicitEuler",
+    "Signal",
     "Simulation",
     "State",
+    "StateSpace",
     "StateSpaceModel",
     "Zero",
 ];

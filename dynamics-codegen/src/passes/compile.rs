@@ -1,7 +1,7 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
 use super::parameters::Normaliser;
-use super::plan::{Form, Plan, Plans, calls};
+use super::plan::{Form, Plan, Plans, RunTime, calls};
 use super::schedule::{arithmetic, schedule};
 use super::share::share;
 use super::table;
@@ -78,11 +78,16 @@ pub struct CompiledMethod<'g> {
 }
 
 /// Compiles `methods` of `model`.
-pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> Compiled<'g> {
+pub fn compile<'g>(
+    model: &Model<'g>,
+    graph: &'g Graph,
+    methods: &[Method],
+    run_time: RunTime,
+) -> Compiled<'g> {
     let derivation = Derivation::of(model, graph);
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
-    let plan = Plans::of(model);
+    let plan = Plans::of(model, run_time);
     let straight = methods.iter().copied().filter(|&method| plan.form(method) == Form::StraightLine);
     let mut normaliser = Normaliser::new(graph);
     let equations: Vec<Equation<'g>> = straight

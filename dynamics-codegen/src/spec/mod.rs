@@ -10,6 +10,7 @@ mod keys;
 mod kind;
 mod mimic;
 mod options;
+mod parts;
 mod text;
 mod unit;
 pub mod urdf;
