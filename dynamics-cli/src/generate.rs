@@ -1,9 +1,11 @@
-//! `dynamics generate FILE --lang rust`: the code of a robot, as a file to commit.
+//! `dynamics generate FILE --lang rust` or `c`: the code of a robot, as files to commit.
 
 use std::path::{Path, PathBuf};
 
-use dynamics_codegen::model::names::{hides_a_common_name, upper_camel_case};
-use dynamics_codegen::{generate_urdf, read_urdf};
+use clap::ValueEnum;
+use dynamics_codegen::emit::c::{PREFIX_LIMIT, Real, check_prefix};
+use dynamics_codegen::model::names::{hides_a_common_name, snake_case, upper_camel_case};
+use dynamics_codegen::{generate_c, generate_urdf, read_urdf};
 
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, InputArgs, name_of, shown};
@@ -11,91 +13,179 @@ use crate::output::{failed, print, writer};
 use crate::progress::Progress;
 use crate::robot::NAME;
 
-/// Write the code of a robot: a file to commit, and to include by `mod`
+/// Write the code of a robot: a file to commit and to include by `mod`, or a header and a source in C99
 #[derive(clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct Args {
     #[command(flatten)]
     input: InputArgs,
 
-    /// The language; so far there is `rust`
-    #[arg(long, value_parser = language)]
-    lang: String,
+    /// The language
+    #[arg(long)]
+    lang: Language,
 
-    /// The struct's name; without it, the robot's in the file
-    #[arg(long, value_parser = identifier)]
+    /// The type of all numbers in C; in Rust a robot serves every scalar
+    #[arg(long, value_name = "TYPE", default_value = "float")]
+    scalar: Scalar,
+
+    /// The struct's name, or what all names in C begin with; without it, the robot's in the file
+    #[arg(long)]
     name: Option<String>,
 
-    /// The file to write; without it, standard output
+    /// The file to write; without it, standard output. In C the folder for NAME.h and NAME.c; without it, this one
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
 
     /// Write nothing, and fail if OUT is not what would be written
-    #[arg(long, requires = "output")]
+    #[arg(long)]
     check: bool,
+}
+
+/// A language that code is written in.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Language {
+    /// `no_std`, for the crate `dynamics-core`
+    Rust,
+    /// C99, for nothing
+    C,
+}
+
+/// The types of numbers in C.
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
+enum Scalar {
+    Float,
+    Double,
 }
 
 const EXAMPLES: &str = "\
 Examples:
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs --check
-  dynamics generate dog.urdf --lang rust --base free --joint 'knee, rotor = 5e-5, gear = 100'";
+  dynamics generate dog.urdf --lang rust --base free --joint 'knee, rotor = 5e-5, gear = 100'
+  dynamics generate arm.urdf --lang c --scalar float --name arm -o firmware/src";
 
-fn language(text: &str) -> Result<String, String> {
-    match text {
-        "rust" => Ok(text.to_owned()),
-        _ => Err("no code is generated in this language yet; there is `rust`".to_owned()),
-    }
-}
-
-fn identifier(text: &str) -> Result<String, String> {
-    match syn::parse_str::<syn::Ident>(text) {
-        Ok(_) => Ok(text.to_owned()),
-        Err(_) => Err("this is no identifier of Rust".to_owned()),
-    }
+/// A file of code.
+struct File {
+    /// `None` is standard output.
+    path: Option<PathBuf>,
+    text: String,
 }
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let name = match &args.name {
-        Some(name) => name.clone(),
-        None => name_in_file(&input)?,
+        Some(name) => checked(name, args.lang)?,
+        None => name_in_file(&input, args.lang)?,
     };
-    let text = {
+    let files = {
         let _progress = Progress::of(&format!("generating {name}"));
-        generated(args, &input, &name)?
-    };
-    match &args.output {
-        Some(path) if args.check => compare(args, &input, path, &name, &text),
-        Some(path) => {
-            let mut file = writer(Some(path), &args.input.file)?;
-            let written = file.write_all(text.as_bytes()).and_then(|()| file.flush());
-            written.map_err(|error| failed(Some(path), &error))
+        match args.lang {
+            Language::Rust => vec![File { path: args.output.clone(), text: rust(args, &input, &name)? }],
+            Language::C => c(args, &input, &name)?,
         }
-        None => print(&text),
+    };
+    for File { path, text } in &files {
+        match path {
+            None if args.check => {
+                let problem = Problem::new("there is no file to check");
+                return Err(problem.help("name it by `-o`").into());
+            }
+            Some(path) if args.check => compare(args, &input, path, &name, text)?,
+            Some(path) => {
+                let mut file = writer(Some(path), &args.input.file)?;
+                let written = file.write_all(text.as_bytes()).and_then(|()| file.flush());
+                written.map_err(|error| failed(Some(path), &error))?;
+            }
+            None => print(text)?,
+        }
+    }
+    Ok(())
+}
+
+/// A name as given, if it can be one.
+fn checked(name: &str, lang: Language) -> Result<String, Failure> {
+    let why = match lang {
+        Language::Rust if syn::parse_str::<syn::Ident>(name).is_ok() => None,
+        Language::Rust => Some("this is no identifier of Rust".to_owned()),
+        Language::C => check_prefix(name).err(),
+    };
+    match why {
+        None => Ok(name.to_owned()),
+        Some(why) => {
+            Err(Problem::new(format!("`--name {}`: {why}", shown(name))).help("give another name").into())
+        }
     }
 }
 
-/// The robot's name as that of a type, if it can be one.
-fn name_in_file(input: &Input) -> Result<String, Failure> {
+/// The robot's name as that of a type or a prefix, if it can be one.
+fn name_in_file(input: &Input, lang: Language) -> Result<String, Failure> {
     let read = read_urdf(NAME, input.urdf(), &input.attributes.text());
     let (_, report) = read.map_err(|found| Failure::mistakes(found, input))?;
-    let name = upper_camel_case(report.robot.as_deref().unwrap_or_default());
+    let name = report.robot.as_deref().unwrap_or_default();
+    if lang == Language::C {
+        let letter = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
+        let mut prefix: String = snake_case(name).chars().filter(letter).take(PREFIX_LIMIT).collect();
+        prefix.truncate(prefix.trim_end_matches('_').len());
+        return Ok(if check_prefix(&prefix).is_ok() { prefix } else { NAME.to_lowercase() });
+    }
+    let name = upper_camel_case(name);
     let fits = syn::parse_str::<syn::Ident>(&name).is_ok() && !hides_a_common_name(&name);
     Ok(if fits { name } else { NAME.to_owned() })
 }
 
-fn generated(args: &Args, input: &Input, name: &str) -> Result<String, Failure> {
+/// What stands first in a file: what it was made from, and how to make it again.
+fn origin(args: &Args, input: &Input, name: &str) -> [String; 2] {
+    // Where the file is differs from machine to machine, and must not make a difference.
+    let file = file_name(args);
+    let version = env!("CARGO_PKG_VERSION");
+    let made = format!("@generated by dynamics {version} from {file}. Do not edit.");
+    [made, format!("Again: dynamics generate {file}{}", options(args, input, name))]
+}
+
+fn file_name(args: &Args) -> String {
+    let file = args.input.file.file_name().filter(|file| *file != "-");
+    file.map_or("standard input".to_owned(), |file| shown(&file.to_string_lossy()))
+}
+
+/// All options but the place of the output.
+fn options(args: &Args, input: &Input, name: &str) -> String {
+    let lang = match (args.lang, args.scalar) {
+        (Language::Rust, _) => "rust",
+        (Language::C, Scalar::Float) => "c --scalar float",
+        (Language::C, Scalar::Double) => "c --scalar double",
+    };
+    format!(" --lang {lang} --name {name}{}", input.attributes.flags())
+}
+
+/// The header and the source.
+fn c(args: &Args, input: &Input, name: &str) -> Result<Vec<File>, Failure> {
+    let wrong = |found| Failure::mistakes(found, input);
+    let (spec, _) = read_urdf(NAME, input.urdf(), &input.attributes.text()).map_err(wrong)?;
+    let real = match args.scalar {
+        Scalar::Float => Real::Float,
+        Scalar::Double => Real::Double,
+    };
+    let written = generate_c(&spec, name, real, &origin(args, input, name)).map_err(wrong)?;
+    for left in &written.left_out {
+        eprintln!("left out: `{}`, for which the robot is too large", left.function);
+    }
+    let folder = args.output.clone().unwrap_or_default();
+    let file = |ending: &str, text: String| {
+        let path = Some(folder.join(format!("{name}.{ending}")));
+        File { path, text }
+    };
+    Ok(vec![file("h", written.header), file("c", written.source)])
+}
+
+fn rust(args: &Args, input: &Input, name: &str) -> Result<String, Failure> {
     let wrong = |found| Failure::mistakes(found, input);
     let code = generate_urdf(name, input.urdf(), &input.attributes.text()).map_err(wrong)?;
-    // Where the file is differs from machine to machine, and must not make a difference.
-    let file = args.input.file.file_name().filter(|file| *file != "-");
-    let file = file.map_or("standard input".to_owned(), |file| shown(&file.to_string_lossy()));
-    let (version, flags) = (env!("CARGO_PKG_VERSION"), input.attributes.flags());
+    let [made, again] = origin(args, input, name);
+    let file = file_name(args);
     Ok(format!(
-        "// @generated by dynamics {version} from {file}. Do not edit.\n\
-         // Again: dynamics generate {file} --lang rust --name {name}{flags} -o …\n\
+        "// {made}\n\
+         // {again} -o …\n\
          #![allow(unreachable_pub, reason = \"generated code\")]\n\n\
          /// The robot of `{file}`: its methods are those of the traits of `dynamics_core`.\n\
          #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]\n\
@@ -121,6 +211,11 @@ fn compare(args: &Args, input: &Input, path: &Path, name: &str, text: &str) -> R
 
 /// How to bring a file up to date.
 fn again(args: &Args, input: &Input, path: &Path, name: &str) -> String {
-    let (file, flags) = (name_of(&args.input.file), input.attributes.flags());
-    format!("run `dynamics generate {file} --lang rust --name {name}{flags} -o {}`", name_of(path))
+    let (file, options) = (name_of(&args.input.file), options(args, input, name));
+    let output = match args.lang {
+        Language::Rust => Some(path),
+        Language::C => path.parent().filter(|folder| !folder.as_os_str().is_empty()),
+    };
+    let output = output.map_or(String::new(), |output| format!(" -o {}", name_of(output)));
+    format!("run `dynamics generate {file}{options}{output}`")
 }

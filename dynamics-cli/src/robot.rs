@@ -4,7 +4,7 @@
 use dynamics_codegen::mechanics::equations::{Argument, Input as Symbol, Method};
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows, total_mass};
 use dynamics_codegen::model::{Model, Tree};
-use dynamics_codegen::passes::{Compiled, Plan};
+use dynamics_codegen::passes::{Compiled, Plan, RunTime};
 use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
@@ -79,7 +79,7 @@ impl<'g> Robot<'g> {
                 |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
             spec.options.outputs = Some(methods.iter().map(name).collect());
         }
-        let (model, compiled) = checked(&spec, graph).map_err(wrong)?;
+        let (model, compiled) = checked(&spec, graph, RunTime::Core).map_err(wrong)?;
         // A file has no parameters; what depends on fields is asked of programs alone.
         let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
         let tree = model.tree.map(|expr| evaluator.value(expr));

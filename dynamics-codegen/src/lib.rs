@@ -19,6 +19,7 @@ pub mod spec;
 pub mod symbolic;
 
 use diagnostics::{Code, Diagnostic, Diagnostics};
+use passes::RunTime;
 use proc_macro2::{Span, TokenStream};
 use spec::RobotSpec;
 use spec::urdf::{Report, Urdf};
@@ -183,9 +184,37 @@ pub fn generate_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<Str
 /// The code for a robot.
 fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
     let graph = Graph::new();
-    let (model, compiled) = checked(spec, &graph)?;
+    let (model, compiled) = checked(spec, &graph, RunTime::Core)?;
     let item = emit::rust::Item::of(spec, &model);
     Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+}
+
+/// A robot in C, with everything about it named by `prefix`; `origin` says in its first lines where it comes from.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any, and [`Code::NumberOutOfRange`] where a number is too large for the
+/// type.
+///
+/// # Panics
+///
+/// If [`emit::c::check_prefix`] refuses the prefix.
+pub fn generate_c(
+    spec: &RobotSpec,
+    prefix: &str,
+    real: emit::c::Real,
+    origin: &[String],
+) -> Result<emit::c::Files, Diagnostics> {
+    assert_eq!(emit::c::check_prefix(prefix), Ok(()), "a prefix is checked before");
+    let graph = Graph::new();
+    let (model, compiled) = checked(spec, &graph, RunTime::None)?;
+    let mut diags = Diagnostics::new();
+    if emit::c::overflows(&compiled, real) {
+        let message = format!("the numbers of `{}` are too large for `{}`", spec.ident, real.name());
+        diags.error(Code::NumberOutOfRange, &spec.ident.span().into(), message);
+    }
+    diags.check()?;
+    Ok(emit::c::files(&emit::c::Input { prefix, real, origin, model: &model, compiled: &compiled }))
 }
 
 /// A robot judged, and its programs: the whole compiler between reading and writing, in order. Each phase sees only
@@ -197,6 +226,7 @@ fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
 pub fn checked<'g>(
     spec: &RobotSpec,
     graph: &'g Graph,
+    run_time: RunTime,
 ) -> Result<(model::Model<'g>, passes::Compiled<'g>), Diagnostics> {
     let mut diags = Diagnostics::new();
 
@@ -208,8 +238,8 @@ pub fn checked<'g>(
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
-    let methods = passes::methods(outputs.as_deref(), &model);
-    let compiled = passes::compile(&model, graph, &methods); // derived, simplified, scheduled
+    let methods = passes::methods(outputs.as_deref(), &model, run_time);
+    let compiled = passes::compile(&model, graph, &methods, run_time); // derived, simplified, scheduled
     check_constants(spec, &compiled, &mut diags);
     diags.check()?;
     check_against_plain_recursion(spec, &model, &compiled, &mut diags);

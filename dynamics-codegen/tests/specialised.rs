@@ -4,7 +4,7 @@
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::equations::{Argument, Derivation, Input, Method};
 use dynamics_codegen::model::{self, FieldType, LinkInfo, Model, Tree};
-use dynamics_codegen::passes::{compile, disagreements, entries};
+use dynamics_codegen::passes::{RunTime, compile, disagreements, entries};
 use dynamics_codegen::spatial::{Matrix3, PseudoInertia, Random};
 use dynamics_codegen::spec;
 use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number};
@@ -50,7 +50,7 @@ fn programs_compute_what_the_oracle_says_of_random_trees() {
         let tree = state(1000 + seed, 1 + seed as usize % 6, SHAPES[seed as usize % 3]).tree;
         let graph = Graph::new();
         let model = model_of(&tree, seed);
-        let compiled = compile(&model, &graph, &all_methods(tree.frames.len()));
+        let compiled = compile(&model, &graph, &all_methods(tree.frames.len()), RunTime::Core);
         let found = disagreements(&model, &compiled);
         let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
         assert!(found.is_empty(), "tree {seed} of {motions:?}: {found:?}");
@@ -142,7 +142,7 @@ fn base_parameters_are_all_that_can_be_told_apart() {
             model.tree = tree.map(constant);
             model.links[part].body = None;
         }
-        let compiled = compile(&model, &graph, &[Method::Regressor, Method::BaseRegressor]);
+        let compiled = compile(&model, &graph, &[Method::Regressor, Method::BaseRegressor], RunTime::Core);
         let nq = tree.coordinates();
         let (wide, narrow) = (compiled.parameter_names.len(), compiled.base_parameter_names.len());
         let (mut all, mut base) = (vec![], vec![]);
@@ -186,7 +186,7 @@ fn parts_of_joints_have_no_parameters_of_their_own() {
     let spec = spec::parse(&input, &mut diags);
     let model = model::build(&spec, &graph, &mut diags).expect("it is a robot");
     diags.check().expect("without mistakes");
-    let compiled = compile(&model, &graph, &[Method::BaseRegressor]);
+    let compiled = compile(&model, &graph, &[Method::BaseRegressor], RunTime::Core);
     // Ten of the free body, seven of the other, and two of what the link between them gets of it.
     assert_eq!(compiled.base_parameter_names.len(), 19, "{:?}", compiled.base_parameter_names);
 }

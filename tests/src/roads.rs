@@ -5,7 +5,7 @@ use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
 use dynamics_codegen::mechanics::lagrange::{self, Coordinates, Lagrange};
 use dynamics_codegen::mechanics::plain::Oracle;
 use dynamics_codegen::model::{self, Model, Tree};
-use dynamics_codegen::passes::{self, Compiled, Plan};
+use dynamics_codegen::passes::{self, Compiled, Plan, RunTime};
 use dynamics_codegen::spec;
 use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, Real, SymbolId};
 
@@ -40,6 +40,24 @@ pub fn read(path: &str) -> Result<Vec<u8>, String> {
     std::fs::read(format!("{}/{path}", env!("CARGO_MANIFEST_DIR"))).map_err(|error| error.to_string())
 }
 
+/// What a robot's text and file say.
+///
+/// # Panics
+///
+/// If the compiler finds a mistake in them: the derive has compiled the robot.
+pub fn specification(entry: &Entry) -> spec::RobotSpec {
+    let mut diags = Diagnostics::new();
+    let mut spec = spec::parse(&input(entry), &mut diags);
+    if let Some(path) = spec.options.urdf.clone() {
+        let bytes = read(&path.text).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
+        let text = std::str::from_utf8(&bytes).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
+        spec::urdf::read(&mut spec, spec::urdf::Urdf { file: &path.text, text }, &mut diags);
+    }
+    let mistakes = diags.into_text();
+    assert!(mistakes.is_empty(), "{}: {mistakes}", entry.name);
+    spec
+}
+
 /// Runs `with` on the robot as the compiler sees it.
 ///
 /// # Panics
@@ -48,13 +66,7 @@ pub fn read(path: &str) -> Result<Vec<u8>, String> {
 pub fn travel<R>(entry: &Entry, with: impl FnOnce(&Roads<'_>) -> R) -> R {
     let graph = Graph::new();
     let mut diags = Diagnostics::new();
-    let mut spec = spec::parse(&input(entry), &mut diags);
-    if let Some(path) = spec.options.urdf.clone() {
-        let bytes = read(&path.text).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        let text = std::str::from_utf8(&bytes).unwrap_or_else(|error| panic!("{}: {error}", entry.name));
-        spec::urdf::read(&mut spec, spec::urdf::Urdf { file: &path.text, text }, &mut diags);
-    }
-    let model = model::build(&spec, &graph, &mut diags);
+    let model = model::build(&specification(entry), &graph, &mut diags);
     let mistakes = diags.into_text();
     let model = model.unwrap_or_else(|| panic!("{}: {mistakes}", entry.name));
     with(&Roads::of(entry, &graph, model))
@@ -93,8 +105,13 @@ impl<'g> Roads<'g> {
 
     /// The programs that the derive would write, to be run here.
     pub fn interpreter(&self) -> Interpreter<'_, 'g> {
-        let methods = passes::methods(None, &self.model);
-        let compiled = passes::compile(&self.model, self.graph, &methods);
+        self.interpreter_for(RunTime::Core)
+    }
+
+    /// The programs that are written where there is this run time.
+    pub fn interpreter_for(&self, run_time: RunTime) -> Interpreter<'_, 'g> {
+        let methods = passes::methods(None, &self.model, run_time);
+        let compiled = passes::compile(&self.model, self.graph, &methods, run_time);
         let read = |input| match input {
             Input::Parameter(k) => self.parameters[k],
             Input::Argument(..) => unreachable!("the preparation reads parameters only"),

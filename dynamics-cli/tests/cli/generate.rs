@@ -193,3 +193,44 @@ fn largest(value: &Value) -> f64 {
     let rows = value.as_array().unwrap().iter().flat_map(|row| row.as_array().unwrap());
     rows.map(|x| x.as_f64().unwrap().abs()).fold(0.0, f64::max)
 }
+
+/// A header and a source, which the C compiler that links Rust takes without a remark.
+#[test]
+fn c_is_two_files_that_compile() {
+    let folder = folder("generate_c");
+    let out = folder.to_str().unwrap();
+    let iiwa = model("iiwa14");
+    let write = ["generate", &iiwa, "--lang", "c", "--scalar", "float", "--name", "iiwa14", "-o", out];
+    let check = [&write[..], &["--check"]].concat();
+    assert!(dynamics(&check).failed(1).contains("cannot be read"));
+    assert_eq!(dynamics(&write).ok(), "");
+    assert_eq!(dynamics(&check).ok(), "");
+    let header = std::fs::read_to_string(folder.join("iiwa14.h")).unwrap();
+    assert!(
+        header.contains("void iiwa14_mass_matrix(const float q[IIWA14_NQ], float M[IIWA14_NV][IIWA14_NV]);")
+    );
+    let source = folder.join("iiwa14.c");
+    let warnings =
+        ["-std=c99", "-pedantic", "-Wall", "-Wextra", "-Wconversion", "-Wdouble-promotion", "-Werror"];
+    let compiled = Command::new("cc")
+        .args(warnings)
+        .args(["-c", "-o"])
+        .arg(folder.join("iiwa14.o"))
+        .arg(&source)
+        .output();
+    let compiled = compiled.unwrap();
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    let text = std::fs::read_to_string(&source).unwrap();
+    std::fs::write(&source, text.replacen("const float", "float", 1)).unwrap();
+    let complaint = dynamics(&check).failed(1);
+    assert!(complaint.contains("iiwa14.c is stale"), "{complaint}");
+    assert!(complaint.contains(&format!("--lang c --scalar float --name iiwa14 -o {out}`")), "{complaint}");
+}
+
+#[test]
+fn a_name_that_c_cannot_have_is_refused() {
+    let iiwa = model("iiwa14");
+    let named = |name: &str| dynamics(&["generate", &iiwa, "--lang", "c", "--name", name]).failed(1);
+    assert!(named("Iiwa").contains("a prefix is of small letters"));
+    assert!(named("a_long_prefix").contains("at most 11 characters"));
+}

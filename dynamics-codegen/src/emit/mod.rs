@@ -1,3 +1,6 @@
 //! From programs to text.
 
+mod body;
+pub mod c;
+mod names;
 pub mod rust;

@@ -2,7 +2,7 @@
 
 use super::factoring::factoring;
 use super::parameters::Normaliser;
-use super::plan::{Form, Plan, Plans, calls};
+use super::plan::{Form, Plan, Plans, RunTime, calls};
 use super::schedule::{arithmetic, schedule};
 use super::share::share;
 use super::table;
@@ -81,13 +81,18 @@ pub struct CompiledMethod<'g> {
 }
 
 /// Compiles `methods` of `model`.
-pub fn compile<'g>(model: &Model<'g>, graph: &'g Graph, methods: &[Method]) -> Compiled<'g> {
+pub fn compile<'g>(
+    model: &Model<'g>,
+    graph: &'g Graph,
+    methods: &[Method],
+    run_time: RunTime,
+) -> Compiled<'g> {
     let derivation = Derivation::of(model, graph);
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
     let at_rest = derivation.at_rest();
     let inputs = derivation.inputs;
-    let plan = Plans::of(model);
+    let plan = Plans::of(model, run_time);
     let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
     let is_solved = |method: Method| methods.contains(&method) && plan.is_solved(method);
     let shares = |method: Method| {

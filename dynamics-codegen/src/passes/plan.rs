@@ -61,6 +61,15 @@ pub(super) enum Form {
     Lanes,
 }
 
+/// What the code may call.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RunTime {
+    /// The crate `dynamics-core`, with its loops, lanes and tables.
+    Core,
+    /// Nothing but loops over the rows of a matrix, which are written beside the code.
+    None,
+}
+
 /// How each method of a robot is computed.
 pub(super) struct Plans {
     /// The speed before each on its way to the base.
@@ -74,7 +83,7 @@ pub(super) struct Plans {
 }
 
 impl Plans {
-    pub(super) fn of(model: &Model<'_>) -> Self {
+    pub(super) fn of(model: &Model<'_>, run_time: RunTime) -> Self {
         let links = &model.tree.links;
         let columns = columns(links.iter().map(|link| (link.parent, link.motion, link.drive)));
         let parents = elimination_parents(&columns, model.tree.dof());
@@ -83,7 +92,7 @@ impl Plans {
         let depth = |link: usize| std::iter::successors(Some(link), |&k| links[k].parent).count();
         let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
-        let suits_lanes = suits_lanes(links);
+        let suits_lanes = run_time == RunTime::Core && suits_lanes(links);
         Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes }
     }
 
@@ -212,8 +221,8 @@ fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
 }
 
 /// The methods to compile: those named and what they call, or all that the robot has.
-pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>) -> Vec<Method> {
-    let plans = Plans::of(model);
+pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
+    let plans = Plans::of(model, run_time);
     let of_frames = (0..model.tree.frames.len()).flat_map(Method::of_frame);
     // A frame has all of its kinematics or none, and a regressor has its parameters.
     let together = |method: Method| match method.trait_() {

@@ -175,12 +175,18 @@ impl Program {
         self.results.iter().map(|&operand| read(&values, operand)).collect()
     }
 
+    /// The constants, without their signs.
+    pub fn constants(&self) -> impl Iterator<Item = f64> {
+        let operands = self.steps.iter().flat_map(|step| step.operation.operands());
+        operands.chain(self.results.iter().copied()).filter_map(|operand| match operand.source {
+            Source::Constant(value) => Some(value),
+            _ => None,
+        })
+    }
+
     /// Whether there is a constant that no double can hold.
     pub fn has_constant_out_of_range(&self) -> bool {
-        let is_out =
-            |operand: &Operand| matches!(operand.source, Source::Constant(value) if !value.is_finite());
-        let in_step = |step: &Step| step.operation.operands().any(|operand| is_out(&operand));
-        self.steps.iter().any(in_step) || self.results.iter().any(is_out)
+        self.constants().any(|value| !value.is_finite())
     }
 
     pub(super) fn count_uses(&mut self) {

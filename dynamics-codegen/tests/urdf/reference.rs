@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
 use dynamics_codegen::model::{self, Model};
-use dynamics_codegen::passes::{self, Compiled, Plan, Program};
+use dynamics_codegen::passes::{self, Compiled, Plan, Program, RunTime};
 use dynamics_codegen::spec::urdf::Urdf;
 use dynamics_codegen::spec::{self, RobotSpec};
 use dynamics_codegen::symbolic::Graph;
@@ -172,7 +172,8 @@ fn files_give_the_numbers_of_pinocchio() {
         let model = model::build(&spec, &graph, &mut diags);
         assert!(diags.is_empty(), "{robot}: {}", diags.into_text());
         let model = model.unwrap();
-        let compiled = passes::compile(&model, &graph, &passes::methods(None, &model));
+        let compiled =
+            passes::compile(&model, &graph, &passes::methods(None, &model, RunTime::Core), RunTime::Core);
         assert!(passes::disagreements(&model, &compiled).is_empty(), "{robot}");
         let order = order(&model, &reference);
         let states = reference["states"].as_array().unwrap();

@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::body::{self, Context};
+use super::context::Context;
 use super::items::{Emitter, allowed};
 use super::names::keyword_safe;
 use super::{Form, Item, methods};
+use crate::emit::body;
 use crate::mechanics::equations::Input as Symbol;
 
 impl Emitter<'_, '_> {

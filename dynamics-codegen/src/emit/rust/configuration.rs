@@ -169,8 +169,8 @@ impl Emitter<'_, '_> {
 
     fn number(&self, value: &str) -> String {
         match self.literals() {
-            super::body::Literals::Plain => value.to_owned(),
-            super::body::Literals::Of(scalar) => format!("{scalar}::of({value})"),
+            super::context::Literals::Plain => value.to_owned(),
+            super::context::Literals::Of(scalar) => format!("{scalar}::of({value})"),
         }
     }
 

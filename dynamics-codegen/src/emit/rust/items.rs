@@ -2,10 +2,11 @@
 
 use std::fmt::Write as _;
 
-use super::body::{Context, Literals};
+use super::context::{Context, Literals};
 use super::methods::{self, Written};
-use super::names::{self, Names};
+use super::names;
 use super::{Form, Input, Item};
+use crate::emit::names::Names;
 use crate::mechanics::equations::{Input as Symbol, Inputs, Method, Trait};
 use crate::model::names::{frame_type, hides_a_common_name};
 use crate::passes::Sizes;

@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
-use super::body::{self, Body, Context};
-use super::names;
+use super::context::Context;
+use crate::emit::body::{self, Body};
+use crate::emit::names;
 use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
 use crate::passes::{CompiledMethod, Cost, Plan, Program, Sizes};
 

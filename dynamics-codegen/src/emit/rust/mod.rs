@@ -1,9 +1,9 @@
 //! Rust: the impls of one robot, as text that a person would sign.
 
-mod body;
 mod check;
 mod companion;
 mod configuration;
+mod context;
 mod frames;
 mod item;
 mod items;

@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 
 use super::items::Emitter;
-use super::{body, methods};
+use super::methods;
+use crate::emit::body;
 use crate::mechanics::equations::Inputs;
 use crate::model::{Drive, Link, Motion, Passive};
 use crate::passes::NUMBERS_PER_LINK;

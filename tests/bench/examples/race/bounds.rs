@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use dynamics_bench::contest::{OUTPUTS, entry};
 use dynamics_codegen::diagnostics::Diagnostics;
-use dynamics_codegen::passes::Plan;
+use dynamics_codegen::passes::{Plan, RunTime};
 use dynamics_codegen::spec::{self, urdf::Urdf};
 use dynamics_codegen::symbolic::Graph;
 
@@ -43,7 +43,7 @@ pub(crate) fn of(robot: &str) -> BTreeMap<&'static str, Bound> {
     let mistakes = diags.into_text();
     assert!(mistakes.is_empty(), "{robot}: {mistakes}");
     let graph = Graph::new();
-    let compiled = match dynamics_codegen::checked(&spec, &graph) {
+    let compiled = match dynamics_codegen::checked(&spec, &graph, RunTime::Core) {
         Ok((_, compiled)) => compiled,
         Err(mistakes) => panic!("{robot}: {}", mistakes.into_text()),
     };

@@ -1,42 +1,49 @@
-//! A program as statements: named where a reader wants a name, nested in blocks where there are many.
+//! A program as statements, in any language: named where a reader wants a name.
 //!
-//! Values that are read once and short are written where they are read. A function never has more than
-//! [`BLOCK`] statements in one block: rustc overflows its stack on flat runs of some 2,600 in debug builds.
+//! Values that are read once and short are written where they are read.
 
-use std::fmt::Write as _;
+use super::names::{Names, angle_suffix, entry};
+use crate::mechanics::equations::{Argument, Block, Input, Shape};
+use crate::passes::{Operand, Operation, Program, Source};
 
-use super::names::{CALLED, Names, angle_suffix, component, entry};
-use crate::mechanics::equations::{Block, Input, Shape};
-use crate::passes::{Operand, Operation, Program, Sizes, Source};
-
-/// The most statements in one block.
-const BLOCK: usize = 250;
 /// The longest expression that is written into another one.
 const INLINE_WIDTH: usize = 44;
 /// The deepest expression that is written into another one.
 const INLINE_DEPTH: usize = 4;
 
-/// How constants are written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Literals {
-    /// `0.42`
-    Plain,
-    /// `T::of(0.42)`
-    Of(String),
-}
+/// What a language says in words of its own.
+pub(super) trait Language {
+    /// The names that no local variable may have.
+    fn taken(&self) -> Vec<&str>;
 
-/// What a body is made from.
-pub(super) struct Context<'a> {
-    /// The name of the companion.
-    pub(super) companion: &'a str,
-    /// The names of the companion's fields.
-    pub(super) fields: &'a [String],
-    /// The names of the parameters.
-    pub(super) parameters: &'a [String],
-    /// How constants are written.
-    pub(super) literals: Literals,
-    /// The sizes of the arguments.
-    pub(super) sizes: Sizes,
+    /// A parameter, where the body reads it.
+    fn parameter(&self, k: usize) -> String;
+
+    /// The name of a parameter.
+    fn parameter_name(&self, k: usize) -> String {
+        self.parameter(k)
+    }
+
+    /// A field of the companion, where the body reads it.
+    fn field(&self, k: usize) -> String;
+
+    /// A component of an argument, where the body reads it; a new name if it needs one.
+    fn component(&self, argument: Argument, k: usize, names: &mut Names) -> String;
+
+    /// A constant.
+    fn constant(&self, value: f64) -> (String, Binding);
+
+    /// `a·b + c` in a call, or `None` where it is written as a product and a sum.
+    fn multiply_add(&self, a: &str, b: &str, c: &str) -> Option<String>;
+
+    /// `√a`
+    fn square_root(&self, a: &str) -> String;
+
+    /// Whether `a + (b + c)` is written without parentheses, and so is another sum to the last bit.
+    fn regroups_sums(&self) -> bool;
+
+    /// The statements, a line each, indented by `indent` levels; `needed` are those that the results read.
+    fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String;
 }
 
 /// The text of a method's body, apart from its frame.
@@ -63,29 +70,54 @@ struct Text {
 
 /// How tightly the outermost operator binds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Binding {
+pub(super) enum Binding {
+    /// A sum that stays together: it is one operation.
+    MultiplyAdd,
     Sum,
     Product,
     Negation,
     Atom,
 }
 
-struct Statement {
-    names: Vec<String>,
-    text: String,
+/// Names for a value.
+pub(super) enum Named {
+    /// One name.
+    Value(String),
+    /// The names of the sine and the cosine of the value; none for what is not read.
+    SinCos(Option<String>, Option<String>),
+}
+
+/// A line that gives a value its name.
+pub(super) struct Statement {
+    /// The name, or names.
+    pub(super) named: Named,
+    /// The value.
+    pub(super) value: String,
+    /// The statements whose names occur in it.
     reads: Vec<usize>,
 }
 
+impl Statement {
+    /// The names, where there are any.
+    pub(super) fn names(&self) -> impl Iterator<Item = &str> {
+        let names = match &self.named {
+            Named::Value(name) => [Some(name), None],
+            Named::SinCos(sin, cos) => [sin.as_ref(), cos.as_ref()],
+        };
+        names.into_iter().flatten().map(String::as_str)
+    }
+}
+
 /// Writes a program; `wanted` are the names that its results shall have.
-pub(super) fn write(program: &Program, wanted: &[String], context: &Context<'_>, indent: usize) -> Body {
-    let mut writer = Writer::new(program, wanted, context);
+pub(super) fn write(program: &Program, wanted: &[String], language: &dyn Language, indent: usize) -> Body {
+    let mut writer = Writer::new(program, wanted, language);
     for step in 0..program.steps.len() {
         writer.step(step);
     }
     let results: Vec<Text> = program.results.iter().map(|&result| writer.operand(result)).collect();
     let needed: Vec<usize> = results.iter().flat_map(|text| text.reads.iter().copied()).collect();
     Body {
-        statements: layout(&writer.statements, &needed, indent),
+        statements: language.layout(&writer.statements, &needed, indent),
         results: results.into_iter().map(|text| text.text).collect(),
         inputs: writer.inputs,
         fields: writer.fields,
@@ -94,7 +126,7 @@ pub(super) fn write(program: &Program, wanted: &[String], context: &Context<'_>,
 
 struct Writer<'a> {
     program: &'a Program,
-    context: &'a Context<'a>,
+    language: &'a dyn Language,
     names: Names,
     /// The name that a step shall have because it is a result.
     result_names: Vec<Option<String>>,
@@ -108,12 +140,8 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(program: &'a Program, wanted: &[String], context: &'a Context<'a>) -> Self {
-        let taken = if context.fields.is_empty() { context.parameters } else { context.fields };
-        let mut names = Names::with_taken(taken.iter().map(String::as_str));
-        for reserved in ["q", "v", "a", "tau", "self", "robot"].iter().chain(CALLED) {
-            names.fresh(reserved);
-        }
+    fn new(program: &'a Program, wanted: &[String], language: &'a dyn Language) -> Self {
+        let names = Names::with_taken(language.taken().into_iter());
         let mut result_names = vec![None; program.steps.len()];
         for (result, name) in program.results.iter().zip(wanted) {
             if let Source::Step(step) = result.source {
@@ -122,7 +150,7 @@ impl<'a> Writer<'a> {
         }
         Self {
             program,
-            context,
+            language,
             names,
             result_names,
             sines_read: sines_read(program),
@@ -155,22 +183,23 @@ impl<'a> Writer<'a> {
             }
             _ => self.numbered_name(),
         };
-        let statement = self.declare(vec![name.clone()], text);
+        let statement = self.declare(Named::Value(name.clone()), text);
         self.values.push((atom(name, vec![statement]), None));
     }
 
     fn sin_cos(&mut self, angle: Operand) {
         let step = self.values.len();
         let inputs = self.inputs_of(angle);
-        let parameters = self.context.parameters;
-        let suffix = angle_suffix(&inputs, |k| parameters[k].clone()).unwrap_or_else(|| format!("_{step}"));
+        let language = self.language;
+        let suffix =
+            angle_suffix(&inputs, |k| language.parameter_name(k)).unwrap_or_else(|| format!("_{step}"));
         let (reads_sin, reads_cos) = self.sines_read[step];
-        let sin = if reads_sin { self.names.fresh(&format!("s{suffix}")) } else { "_".to_owned() };
-        let cos = if reads_cos { self.names.fresh(&format!("c{suffix}")) } else { "_".to_owned() };
-        let mut call = self.operand(angle);
-        call.text = format!("sin_cos({})", call.text);
-        let statement = self.declare(vec![sin.clone(), cos.clone()], call);
-        self.values.push((atom(sin, vec![statement]), Some(atom(cos, vec![statement]))));
+        let sin = reads_sin.then(|| self.names.fresh(&format!("s{suffix}")));
+        let cos = reads_cos.then(|| self.names.fresh(&format!("c{suffix}")));
+        let angle = self.operand(angle);
+        let statement = self.declare(Named::SinCos(sin.clone(), cos.clone()), angle);
+        let read = |name: Option<String>| atom(name.unwrap_or_default(), vec![statement]);
+        self.values.push((read(sin), Some(read(cos))));
     }
 
     /// The inputs that an operand is directly made of.
@@ -186,8 +215,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn declare(&mut self, names: Vec<String>, text: Text) -> usize {
-        self.statements.push(Statement { names, text: text.text, reads: text.reads });
+    fn declare(&mut self, named: Named, text: Text) -> usize {
+        self.statements.push(Statement { named, value: text.text, reads: text.reads });
         self.statements.len() - 1
     }
 
@@ -200,37 +229,43 @@ impl<'a> Writer<'a> {
     fn operation(&mut self, operation: Operation) -> Text {
         match operation {
             Operation::Add(a, b) => {
-                let (a, b) = if a.negative && !b.negative { (b, a) } else { (a, b) };
-                let minus = b.negative;
-                let left = self.operand(a);
-                let right = self.operand(Operand { negative: false, ..b });
-                let right = if minus { wrap(right, Binding::Product) } else { wrap(right, Binding::Sum) };
-                join(
-                    &[&left, &right],
-                    format!("{} {} {}", left.text, if minus { '-' } else { '+' }, right.text),
-                    Binding::Sum,
-                )
+                let (a, b) = (self.term(a), self.term(b));
+                let added = if self.language.regroups_sums() { Binding::Sum } else { Binding::Product };
+                sum(a, b, added)
             }
             Operation::Mul(a, b) => {
                 let (a, b) = (self.operand(a), self.operand(b));
-                let (a, b) = (wrap(a, Binding::Product), wrap(b, Binding::Negation));
-                join(&[&a, &b], format!("{} * {}", a.text, b.text), Binding::Product)
+                product(a, '*', b)
             }
             Operation::Div(a, b) => {
                 let (a, b) = (self.operand(a), self.operand(b));
-                let (a, b) = (wrap(a, Binding::Product), wrap(b, Binding::Negation));
-                join(&[&a, &b], format!("{} / {}", a.text, b.text), Binding::Product)
+                product(a, '/', b)
             }
-            Operation::MulAdd(a, b, c) => {
-                let (a, b, c) = (self.operand(a), self.operand(b), self.operand(c));
-                join(&[&a, &b, &c], format!("madd({}, {}, {})", a.text, b.text, c.text), Binding::Atom)
-            }
+            Operation::MulAdd(a, b, c) => self.multiply_add(a, b, c),
             Operation::Sqrt(a) => {
                 let a = self.operand(a);
-                join(&[&a], format!("sqrt({})", a.text), Binding::Atom)
+                join(&[&a], self.language.square_root(&a.text), Binding::Atom)
             }
             Operation::SinCos(_) => unreachable!("written by `sin_cos`"),
         }
+    }
+
+    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand) -> Text {
+        let texts = [a, b, c].map(|operand| self.operand(operand));
+        let [first, second, third] = &texts;
+        if let Some(call) = self.language.multiply_add(&first.text, &second.text, &third.text) {
+            return join(&[first, second, third], call, Binding::Atom);
+        }
+        let is_negative = a.negative != b.negative;
+        let positive = |operand| Operand { negative: false, ..operand };
+        let (a, b) = (self.operand(positive(a)), self.operand(positive(b)));
+        let text = sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product);
+        Text { binding: Binding::MultiplyAdd, ..text }
+    }
+
+    /// A term of a sum, and whether it is taken off.
+    fn term(&mut self, operand: Operand) -> (bool, Text) {
+        (operand.negative, self.operand(Operand { negative: false, ..operand }))
     }
 
     fn operand(&mut self, operand: Operand) -> Text {
@@ -241,23 +276,12 @@ impl<'a> Writer<'a> {
                 if !self.fields.contains(&field) {
                     self.fields.push(field);
                 }
-                atom(self.context.fields[field].clone(), Vec::new())
+                atom(self.language.field(field), Vec::new())
             }
             Source::Step(k) | Source::Sin(k) => self.values[k].0.clone(),
             Source::Cos(k) => self.values[k].1.clone().expect("a step of sines has two values"),
         };
-        if !operand.negative {
-            return value;
-        }
-        // `-a * b` is `-(a * b)`, and the negative of `-a * b` is `a * b`.
-        let value = wrap(value, Binding::Product);
-        match value.text.strip_prefix('-') {
-            Some(positive) => Text { text: positive.to_owned(), binding: Binding::Product, ..value },
-            None => {
-                let binding = value.binding.min(Binding::Negation);
-                Text { text: format!("-{}", value.text), binding, ..value }
-            }
-        }
+        if operand.negative { negated(value) } else { value }
     }
 
     fn input(&mut self, input: Input) -> String {
@@ -265,22 +289,16 @@ impl<'a> Writer<'a> {
             return name.clone();
         }
         let name = match input {
-            Input::Parameter(k) => self.context.parameters[k].clone(),
-            Input::Argument(argument, k) => self.names.fresh(&component(argument, k)),
+            Input::Parameter(k) => self.language.parameter(k),
+            Input::Argument(argument, k) => self.language.component(argument, k, &mut self.names),
         };
         self.inputs.push((input, name.clone()));
         name
     }
 
     fn literal(&self, value: f64) -> Text {
-        // Zero has no sign.
-        let value = value + 0.0;
-        let number = format!("{value:?}");
-        match &self.context.literals {
-            Literals::Of(scalar) => atom(format!("{scalar}::of({number})"), Vec::new()),
-            Literals::Plain if value < 0.0 => Text { binding: Binding::Negation, ..atom(number, Vec::new()) },
-            Literals::Plain => atom(number, Vec::new()),
-        }
+        let (text, binding) = self.language.constant(value + 0.0); // zero has no sign
+        Text { binding, ..atom(text, Vec::new()) }
     }
 }
 
@@ -335,6 +353,33 @@ fn join(parts: &[&Text], text: String, binding: Binding) -> Text {
     Text { text, binding, depth, reads }
 }
 
+/// `a + b`, each with whether it is taken off; what is added binds at least as `added`.
+fn sum(a: (bool, Text), b: (bool, Text), added: Binding) -> Text {
+    let ((is_negative, left), (minus, right)) = if a.0 && !b.0 { (b, a) } else { (a, b) };
+    let left = if is_negative { negated(left) } else { left };
+    let right = wrap(right, if minus { Binding::Product } else { added });
+    let sign = if minus { '-' } else { '+' };
+    join(&[&left, &right], format!("{} {sign} {}", left.text, right.text), Binding::Sum)
+}
+
+/// `a * b` or `a / b`.
+fn product(a: Text, operator: char, b: Text) -> Text {
+    let (a, b) = (wrap(a, Binding::Product), wrap(b, Binding::Negation));
+    join(&[&a, &b], format!("{} {operator} {}", a.text, b.text), Binding::Product)
+}
+
+/// `-a * b` is `-(a * b)`, and the negative of `-a * b` is `a * b`.
+fn negated(value: Text) -> Text {
+    let value = wrap(value, Binding::Product);
+    match value.text.strip_prefix('-') {
+        Some(positive) => Text { text: positive.to_owned(), binding: Binding::Product, ..value },
+        None => {
+            let binding = value.binding.min(Binding::Negation);
+            Text { text: format!("-{}", value.text), binding, ..value }
+        }
+    }
+}
+
 /// The text in parentheses, unless it binds at least as tightly as `least`.
 fn wrap(text: Text, least: Binding) -> Text {
     if text.binding >= least {
@@ -344,38 +389,8 @@ fn wrap(text: Text, least: Binding) -> Text {
     }
 }
 
-/// The statements, in nested blocks if there are many.
-fn layout(statements: &[Statement], needed: &[usize], indent: usize) -> String {
-    let mut lines = String::new();
-    let pad = |levels: usize| "    ".repeat(levels);
-    if statements.len() <= BLOCK {
-        for statement in statements {
-            let _ = writeln!(lines, "{}let {} = {};", pad(indent), tuple(&statement.names), statement.text);
-        }
-        return lines;
-    }
-    let last_reader = last_readers(statements, needed);
-    for (block, chunk) in statements.chunks(BLOCK).enumerate() {
-        let end = (block + 1) * BLOCK;
-        let leaving: Vec<&str> = (block * BLOCK..)
-            .zip(chunk)
-            .filter(|(k, _)| last_reader[*k] >= end)
-            .flat_map(|(_, statement)| statement.names.iter().map(String::as_str).filter(|name| *name != "_"))
-            .collect();
-        let leaving = tuple(&leaving);
-        let _ = writeln!(lines, "{}let {leaving} = {{", pad(indent));
-        for statement in chunk {
-            let _ =
-                writeln!(lines, "{}let {} = {};", pad(indent + 1), tuple(&statement.names), statement.text);
-        }
-        let _ = writeln!(lines, "{}{leaving}", pad(indent + 1));
-        let _ = writeln!(lines, "{}}};", pad(indent));
-    }
-    lines
-}
-
 /// For each statement the last one that reads it; results are read after all of them.
-fn last_readers(statements: &[Statement], needed: &[usize]) -> Vec<usize> {
+pub(super) fn last_readers(statements: &[Statement], needed: &[usize]) -> Vec<usize> {
     let mut last = vec![0; statements.len()];
     for (reader, statement) in statements.iter().enumerate() {
         for &read in &statement.reads {
@@ -386,11 +401,4 @@ fn last_readers(statements: &[Statement], needed: &[usize]) -> Vec<usize> {
         last[read] = usize::MAX;
     }
     last
-}
-
-fn tuple(names: &[impl AsRef<str>]) -> String {
-    match names {
-        [name] => name.as_ref().to_owned(),
-        _ => format!("({})", names.iter().map(AsRef::as_ref).collect::<Vec<_>>().join(", ")),
-    }
 }

@@ -1,0 +1,171 @@
+//! The header: what the robot is, in which units and frames, and the declarations.
+
+use std::fmt::Write as _;
+
+use super::functions::{Function, LeftOut};
+use super::names::Robot;
+use super::words::comment;
+use super::{Input, Real};
+use crate::model::{JointInfo, Limits, Motion};
+
+const CONVENTIONS: &[&str] = &[
+    "M(q) a + C(q,v) v + G(q) + passive forces = tau",
+    "",
+    "SI units and radians. Gravity is that of the robot's description. Joint forces are positive along",
+    "the axes, so that v^T tau is the power put in. Six-vectors are linear first, then angular. Matrices",
+    "are by rows. A quaternion is i, j, k, w, and of unit length; the velocity of a ball joint is the",
+    "angular velocity of its body in the body's axes, that of a free joint the twist of its body.",
+    "Derivatives by q are by such motions.",
+    "",
+    "Every function is a pure one: it reads its arguments, writes its results, and keeps nothing, so that",
+    "it may be interrupted and called from everywhere. Straight lines have no branch but that of the",
+    "sine's range: the worst case is the only case. What is not finite comes out as not finite. Results",
+    "must not overlap arguments.",
+];
+
+/// The first lines of both files.
+pub(super) fn banner(input: &Input<'_, '_>) -> String {
+    comment(input.origin) + "\n"
+}
+
+/// Writes the file.
+pub(super) fn write(
+    input: &Input<'_, '_>,
+    robot: &Robot,
+    functions: &[Function],
+    left_out: &[LeftOut],
+) -> String {
+    let guard = robot.size("H");
+    let sizes = input.compiled.sizes().inputs;
+    let mut text = banner(input);
+    let _ = writeln!(text, "#ifndef {guard}\n#define {guard}\n");
+    text.push_str(&comment(&about(input)));
+    let _ = write!(
+        text,
+        "\n#define {} {}\n#define {} {}\n\n",
+        robot.size("NQ"),
+        sizes.coordinates,
+        robot.size("NV"),
+        sizes.dof
+    );
+    text.push_str("#ifdef __cplusplus\nextern \"C\" {\n#endif\n\n");
+    if robot.has_fields() {
+        text.push_str(&structs(input, robot));
+    }
+    let _ = writeln!(
+        text,
+        "/* Zeros, and quaternions of no rotation. */\n{};\n\n\
+         /* Where q gets to by delta = v dt: a step of time on the configurations. moved may be q. */\n{};\n",
+        neutral(robot, input.real),
+        integrate(robot, input.real)
+    );
+    for function in functions {
+        let _ = writeln!(text, "{}{};\n", function.comment, function.signature);
+    }
+    if !left_out.is_empty() {
+        let mut lines = vec!["The robot is too large for these in straight lines:".to_owned()];
+        lines.extend(left_out.iter().map(|left| format!("  {}: {}", left.function, left.headline)));
+        text.push_str(&comment(&lines));
+        text.push('\n');
+    }
+    let _ = writeln!(text, "#ifdef __cplusplus\n}}\n#endif\n\n#endif");
+    text
+}
+
+/// The conventions, and a table of the coordinates.
+fn about(input: &Input<'_, '_>) -> Vec<String> {
+    let mut lines: Vec<String> = CONVENTIONS.iter().map(|&line| line.to_owned()).collect();
+    let joints = &input.model.joints;
+    lines.push(String::new());
+    lines.push("Coordinates, with their units and limits:".to_owned());
+    let coordinates = joints.iter().flat_map(JointInfo::coordinate_names).enumerate();
+    lines.extend(coordinates.map(|(k, name)| format!("  q[{k}]  {name}{}", of_coordinate(input, k))));
+    lines.push(String::new());
+    lines.push("Speeds (also the entries of a and tau), with the units of v and of tau:".to_owned());
+    let speeds = joints.iter().flat_map(JointInfo::speed_names).enumerate();
+    lines.extend(speeds.map(|(k, name)| format!("  v[{k}]  {name}{}", of_speed(input, k))));
+    lines
+}
+
+/// `, rad, -2.967 to 2.967`
+fn of_coordinate(input: &Input<'_, '_>, k: usize) -> String {
+    let link =
+        input.model.tree.links.iter().find(|l| (l.drive.q..l.drive.q + l.motion.coordinates()).contains(&k));
+    let unit = link.map_or("", |link| match (link.motion, k - link.drive.q) {
+        (Motion::Revolute, _) => ", rad",
+        (Motion::Prismatic, _) | (Motion::Free, 0..3) => ", m",
+        (Motion::Ball | Motion::Free, _) => "",
+    });
+    let is_single = |joint: &&JointInfo| joint.q.contains(&k) && joint.q.len() == joint.v.len();
+    let joint = input.model.joints.iter().find(is_single);
+    let limits = joint.and_then(|joint| joint.limits.get(k - joint.q.start));
+    let range = limits.map_or(String::new(), |Limits { lower, upper, .. }| match (lower, upper) {
+        (&f64::NEG_INFINITY, &f64::INFINITY) => String::new(),
+        (&f64::NEG_INFINITY, upper) => format!(", at most {upper}"),
+        (lower, &f64::INFINITY) => format!(", at least {lower}"),
+        (lower, upper) => format!(", {lower} to {upper}"),
+    });
+    format!("{unit}{range}")
+}
+
+/// `, rad/s, N m, |v| <= 1.7, |tau| <= 320`
+fn of_speed(input: &Input<'_, '_>, k: usize) -> String {
+    let link =
+        input.model.tree.links.iter().find(|l| (l.drive.v..l.drive.v + l.motion.speeds()).contains(&k));
+    let units = link.map_or("", |link| match (link.motion, k - link.drive.v) {
+        (Motion::Prismatic, _) | (Motion::Free, 0..3) => ", m/s, N",
+        (Motion::Revolute | Motion::Ball | Motion::Free, _) => ", rad/s, N m",
+    });
+    let joint = input.model.joints.iter().find(|joint| joint.v.contains(&k));
+    let limits = joint.and_then(|joint| joint.limits.get(k - joint.v.start));
+    let bound = |name: &str, value: f64| {
+        if value.is_finite() { format!(", |{name}| <= {value}") } else { String::new() }
+    };
+    let bounds =
+        limits.map_or(String::new(), |limits| bound("v", limits.velocity) + &bound("tau", limits.effort));
+    let passive = if joint.is_some_and(|joint| !joint.actuated) { ", without a motor" } else { "" };
+    format!("{units}{bounds}{passive}")
+}
+
+/// The fields of the robot, and what is made of them once.
+fn structs(input: &Input<'_, '_>, robot: &Robot) -> String {
+    let (prefix, real) = (&robot.prefix, input.real.name());
+    let mut text = "/* What is known at run time only. */\ntypedef struct {\n".to_owned();
+    for (name, parameter) in robot.parameters.iter().zip(&input.model.parameters) {
+        let unit = parameter.unit.as_deref().map_or(String::new(), |unit| format!(" /* {} */", ascii(unit)));
+        let _ = writeln!(text, "    {real} {name};{unit}");
+    }
+    let _ = writeln!(
+        text,
+        "}} {prefix}_fields;\n\n/* All that depends on the fields alone, by {prefix}_prepare. */"
+    );
+    text.push_str("typedef struct {\n");
+    for field in &robot.fields {
+        let _ = writeln!(text, "    {real} {field};");
+    }
+    let _ = writeln!(
+        text,
+        "}} {prefix}_robot;\n\n/* To be called once, and again when a field changes. {} */\n{};\n",
+        super::words::describe(input.compiled.companion.preparation.cost()),
+        prepare(robot)
+    );
+    text
+}
+
+/// A unit in the letters of every source file: `kg m^2`.
+fn ascii(unit: &str) -> String {
+    unit.replace('·', " ").replace('²', "^2").replace('³', "^3").replace('⁻', "^-").replace('¹', "1")
+}
+
+pub(super) fn prepare(Robot { prefix, .. }: &Robot) -> String {
+    format!("void {prefix}_prepare(const {prefix}_fields *fields, {prefix}_robot *robot)")
+}
+
+pub(super) fn neutral(robot: &Robot, real: Real) -> String {
+    format!("void {}_neutral({} q[{}])", robot.prefix, real.name(), robot.size("NQ"))
+}
+
+pub(super) fn integrate(robot: &Robot, real: Real) -> String {
+    let (prefix, real, nq, nv) = (&robot.prefix, real.name(), robot.size("NQ"), robot.size("NV"));
+    format!("void {prefix}_integrate(const {real} q[{nq}], const {real} delta[{nv}], {real} moved[{nq}])")
+}
