@@ -46,6 +46,13 @@
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
+#![cfg_attr(
+    all(feature = "std", target_os = "none"),
+    allow(
+        unconditional_recursion,
+        reason = "without `std` a square root calls itself; the error below is enough"
+    )
+)]
 
 #[cfg(all(feature = "std", target_os = "none"))]
 compile_error!(

@@ -13,7 +13,7 @@ pub const DERIVATIVES: f64 = 1e-9;
 pub const DIFFERENCES: f64 = 1e-8;
 
 /// Single precision: some hundred operations of 6e-8 each, which mostly cancel, and sines with an absolute error
-/// of 9.2e-8.
+/// of 9.4e-8.
 pub const SINGLE: f64 = 1e-5;
 
 /// Asserts that two blocks of numbers agree: the largest difference over the larger of the largest entry and

@@ -73,26 +73,43 @@ fn sign_extend(value: u32, bits: u32) -> i32 {
     (value << (32 - bits)) as i32 >> (32 - bits)
 }
 
+/// Calls within calls that are followed. What calls itself comes to no end, and is no straight line.
+const DEPTH: usize = 8;
+
 /// The instructions from the first to the return, if nothing in between decides. Jumps are taken as long as they lead
-/// ahead: they are those around a pool of constants. What is called must be of the same kind: `function_at` has its code.
+/// ahead, around a pool of constants, or to another function, in place of a call. What is called must be of the same
+/// kind: `function_at` has its code.
 pub(crate) fn straight_line<'p>(
     address: u32,
     code: &[u8],
     function_at: &impl Fn(u32) -> Option<&'p [u8]>,
 ) -> Option<usize> {
+    length(address, code, function_at, DEPTH)
+}
+
+fn length<'p>(
+    address: u32,
+    code: &[u8],
+    function_at: &impl Fn(u32) -> Option<&'p [u8]>,
+    depth: usize,
+) -> Option<usize> {
     let (mut at, mut count) = (0, 0);
     loop {
-        let (flow, length) = decode(code.get(at..)?)?;
+        let (flow, size) = decode(code.get(at..)?)?;
         count += 1;
+        let callee = |offset| {
+            let callee = address.wrapping_add(u32::try_from(at).ok()?).wrapping_add_signed(offset);
+            length(callee, function_at(callee)?, function_at, depth.checked_sub(1)?)
+        };
         at += match flow {
-            Flow::Next => length,
-            Flow::Jump(ahead) => usize::try_from(ahead).ok().filter(|&ahead| ahead >= length)?,
+            Flow::Next => size,
+            Flow::Jump(offset) => match usize::try_from(offset) {
+                Ok(ahead) if ahead >= size && at + ahead < code.len() => ahead,
+                _ => return Some(count + callee(offset)?),
+            },
             Flow::Call(offset) => {
-                let callee = address.wrapping_add(u32::try_from(at).ok()?).wrapping_add_signed(offset);
-                // What calls nothing before itself in memory comes to an end.
-                count +=
-                    straight_line(callee, function_at(callee).filter(|_| callee != address)?, function_at)?;
-                length
+                count += callee(offset)?;
+                size
             }
             Flow::Return => return Some(count),
             Flow::Branch | Flow::Anywhere => return None,
@@ -148,6 +165,8 @@ mod tests {
         let function_at = |address| (address == 0x108).then_some(callee);
         assert_eq!(straight_line(0x100, &code, &function_at), Some(4));
         assert_eq!(straight_line(0x200, &code, &function_at), None, "nothing is there");
+        let last = [0x08, 0x46, 0x00, 0xF0, 0x01, 0xB8]; // mov r0, r1, b.w +6
+        assert_eq!(straight_line(0x100, &last, &function_at), Some(4));
         let itself: &[u8] = &[0xFF, 0xF7, 0xFE, 0xFF]; // bl +0
         assert_eq!(straight_line(0, itself, &|_| Some(itself)), None, "it never ends");
     }
