@@ -171,6 +171,9 @@ fn c(args: &Args, input: &Input, name: &str) -> Result<Vec<File>, Failure> {
         eprintln!("left out: `{}`, for which the robot is too large", left.function);
     }
     let folder = args.output.clone().unwrap_or_default();
+    if !args.check && !folder.as_os_str().is_empty() {
+        std::fs::create_dir_all(&folder).map_err(|error| failed(Some(&folder), &error))?;
+    }
     let file = |ending: &str, text: String| {
         let path = Some(folder.join(format!("{name}.{ending}")));
         File { path, text }

@@ -58,7 +58,8 @@ mod tests {
 
     /// The linear colours of a variable, light and dark.
     fn linear(name: &str) -> [Rgb; 2] {
-        let mut found = PALETTE.split(&format!("--{name}:#")).skip(1).map(|rest| {
+        let declared = format!("--{name}:#");
+        let mut found = PALETTE.split(&declared).skip(1).map(|rest| {
             [0, 2, 4].map(|k| {
                 let byte = u8::from_str_radix(&rest[k..k + 2], 16).expect("two digits");
                 let x = f64::from(byte) / 255.0;

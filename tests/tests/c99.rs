@@ -15,7 +15,7 @@ use dynamics_core::Scalar;
 use dynamics_tests::close::{ROUNDING, SINGLE};
 use dynamics_tests::roads::{specification, travel};
 use dynamics_tests::zoo::{self, Entry};
-use dynamics_tests::{Axes, Forms, Matrix, Robot, State, Vector, assert_close};
+use dynamics_tests::{Axes, Forms, Matrix, Robot, Vector, assert_close};
 
 /// How many states each robot is compared at.
 const STATES: usize = 2;

@@ -186,7 +186,7 @@ fn a_wrong_command_line_is_a_matter_of_its_own() {
         (&["check", &cart, "--base", "loose"], "fixed, free"),
         (&["eval", &cart, "--only", "M,dtau_dp"], "'dtau_dv'"),
         (&["generate", &cart], "--lang"),
-        (&["generate", &cart, "--lang", "c"], "there is `rust`"),
+        (&["generate", &cart, "--lang", "cobol"], "possible values: rust, c"),
         (&["generate", &cart, "--lang", "rust", "--name", "a b"], "no identifier"),
         (&["generate", &cart, "--lang", "rust", "--check"], "--output"),
         (&["simulate", &cart, "--step", "1", "--time", "1", "--every", "0"], "--every"),

@@ -1,4 +1,4 @@
-/* Sine and cosine of x, in rad, at most 9.2e-8 off for |x| <= 1e4, without an operation in double and without a branch
+/* Sine and cosine of x, in rad, at most 9.4e-8 off for |x| <= 1e4, without an operation in double and without a branch
  * that depends on more than the range. Up to 2^20 the error is at most the spacing of float at x; NaN from there on, and
  * for infinity and NaN. W. J. Cody and W. Waite's reduction in parts; minimax polynomials.
  */
