@@ -13,6 +13,8 @@ use crate::wording::for_the_command_line;
 pub(crate) enum Failure {
     /// What is wrong, in order; at least one problem.
     Wrong(Vec<Problem>),
+    /// Options that do not go together, as the parser of the command line complains of them.
+    CommandLine(Problem),
     /// Who read the output has gone: there is nobody to tell.
     PipeClosed,
 }
@@ -106,6 +108,10 @@ impl Failure {
             Self::Wrong(problems) => {
                 render::to_stderr(&problems);
                 ExitCode::FAILURE
+            }
+            Self::CommandLine(problem) => {
+                render::to_stderr(&[problem]);
+                ExitCode::from(2)
             }
             Self::PipeClosed => ExitCode::SUCCESS,
         }

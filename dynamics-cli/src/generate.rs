@@ -73,9 +73,14 @@ struct File {
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
+    if args.check && args.lang == Language::Rust && args.output.is_none() {
+        let problem = Problem::new("`--check` of a file in Rust needs `--output`");
+        return Err(Failure::CommandLine(problem.help("name the file by `-o`")));
+    }
+    let given = args.name.as_deref().map(|name| checked(name, args.lang)).transpose()?;
     let input = args.input.read()?;
-    let name = match &args.name {
-        Some(name) => checked(name, args.lang)?,
+    let name = match given {
+        Some(name) => name.to_owned(),
         None => name_in_file(&input, args.lang)?,
     };
     let files = {
@@ -87,10 +92,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     };
     for File { path, text } in &files {
         match path {
-            None if args.check => {
-                let problem = Problem::new("there is no file to check");
-                return Err(problem.help("name it by `-o`").into());
-            }
             Some(path) if args.check => compare(args, &input, path, &name, text)?,
             Some(path) => {
                 let mut file = writer(Some(path), &args.input.file)?;
@@ -104,18 +105,14 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 }
 
 /// A name as given, if it can be one.
-fn checked(name: &str, lang: Language) -> Result<String, Failure> {
+fn checked(name: &str, lang: Language) -> Result<&str, Failure> {
     let why = match lang {
         Language::Rust if syn::parse_str::<syn::Ident>(name).is_ok() => None,
         Language::Rust => Some("this is no identifier of Rust".to_owned()),
         Language::C => check_prefix(name).err(),
     };
-    match why {
-        None => Ok(name.to_owned()),
-        Some(why) => {
-            Err(Problem::new(format!("`--name {}`: {why}", shown(name))).help("give another name").into())
-        }
-    }
+    let refused = |why| Problem::new(format!("`--name {}`: {why}", shown(name))).help("give another name");
+    why.map_or(Ok(name), |why| Err(Failure::CommandLine(refused(why))))
 }
 
 /// The robot's name as that of a type or a prefix, if it can be one.

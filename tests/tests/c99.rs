@@ -201,23 +201,15 @@ impl Caller {
     }
 
     fn program(&self) -> String {
-        let (real, body) = (self.real, &self.body);
-        let (bits, format) =
-            if real == "float" { ("uint32_t", "08\" PRIx32") } else { ("uint64_t", "016\" PRIx64") };
-        format!(
-            "#include <inttypes.h>\n#include <math.h>\n#include <stdio.h>\n#include <string.h>\n#include \"bot.h\"\n\n\
-             static void print(const char *name, const {real} *x, int n)\n{{\n    printf(\"%s:\", name);\n    \
-             for (int k = 0; k < n; ++k) {{\n        {bits} bits;\n        memcpy(&bits, x + k, sizeof bits);\n        \
-             printf(\" %{format}, bits);\n    }}\n    printf(\"\\n\");\n}}\n\nvoid library(double x, double *sine, double *cosine);\nvoid library(double x, double *sine, double *cosine)\n{{\n    \
-             *sine = sin(x);\n    *cosine = cos(x);\n}}\n\nint main(void)\n{{\n{body}    return 0;\n}}\n"
-        )
+        let bits = if self.real == "float" { "uint32_t" } else { "uint64_t" };
+        let head = include_str!("c99/main.c").replace("REAL", self.real).replace("BITS", bits);
+        format!("{head}\nint main(void)\n{{\n{}    return 0;\n}}\n", self.body)
     }
 }
 
-/// Compiles and runs the C of a robot at these states.
-fn run<T: Float>(entry: &Entry, frames: &[String], states: &[[Vec<T>; 4]], how: &[&str]) -> Vec<Results<T>> {
+/// Writes the C of a robot, and a program that calls all of it at these states, into a folder.
+fn write<T: Float>(entry: &Entry, frames: &[String], states: &[[Vec<T>; 4]], folder: &Path) {
     let written = files::<T>(entry);
-    let folder = folder(&format!("{}_{}{}", entry.name, T::REAL.name(), how.concat()));
     let mut caller = Caller::new::<T>(entry, &written.header);
     for state in states {
         caller.all::<T>(entry, frames, state.each_ref().map(Vec::as_slice));
@@ -227,17 +219,25 @@ fn run<T: Float>(entry: &Entry, frames: &[String], states: &[[Vec<T>; 4]], how: 
     {
         std::fs::write(folder.join(file), text).unwrap();
     }
-    let compiled = Command::new("cc")
-        .current_dir(&folder)
+}
+
+/// Compiles what is in the folder, without a remark of the compiler.
+fn compile(entry: &Entry, folder: &Path, compiler: &str, how: &[&str]) {
+    let command = Command::new(compiler)
+        .current_dir(folder)
         .args(WARNINGS)
+        .args(["-ffp-contract=off", "bot.c", "main.c", "-o", "run"])
         .args(how)
-        .args(["-ffp-contract=off", "bot.c", "main.c", "-lm", "-o", "run"])
-        .output()
-        .expect("the C compiler that links Rust is there");
+        .output();
+    let compiled = command.unwrap_or_else(|error| panic!("{compiler}: {error}"));
     let said = String::from_utf8_lossy(&compiled.stderr).into_owned();
     assert!(compiled.status.success() && said.is_empty(), "{}: {said}", entry.name);
-    let ran = Command::new(folder.join("run")).output().unwrap();
-    assert!(ran.status.success(), "{}", entry.name);
+}
+
+/// Runs a command, and reads the results that it prints.
+fn results<T: Float>(entry: &Entry, command: &mut Command) -> Vec<Results<T>> {
+    let ran = command.output().unwrap();
+    assert!(ran.status.success(), "{}: {}", entry.name, String::from_utf8_lossy(&ran.stderr));
     let text = String::from_utf8(ran.stdout).unwrap();
     let mut results = vec![];
     for line in text.lines() {
@@ -249,6 +249,14 @@ fn run<T: Float>(entry: &Entry, frames: &[String], states: &[[Vec<T>; 4]], how: 
         results.last_mut().unwrap().insert(name.to_owned(), values);
     }
     results
+}
+
+/// Compiles and runs the C of a robot at these states.
+fn run<T: Float>(entry: &Entry, frames: &[String], states: &[[Vec<T>; 4]], how: &[&str]) -> Vec<Results<T>> {
+    let folder = folder(&format!("{}_{}{}", entry.name, T::REAL.name(), how.concat()));
+    write(entry, frames, states, &folder);
+    compile(entry, &folder, "cc", &[how, &["-lm"]].concat());
+    results(entry, &mut Command::new(folder.join("run")))
 }
 
 fn rows<T: Scalar>(m: &Matrix<T>) -> Vec<T> {
@@ -474,4 +482,54 @@ fn no_name_is_longer_than_c99_tells_apart() {
             assert!(text.is_ascii(), "{}", entry.name);
         }
     }
+}
+
+/// On the core itself, under QEMU: float arithmetic is exact there, so the bits are the host's.
+#[test]
+#[ignore = "needs clang and qemu-system-arm; .ci/run has them, and calls it"]
+fn a_cortex_m4f_computes_the_bits_of_the_host() {
+    let sysroot = Command::new("rustc").args(["--print", "sysroot"]).output().unwrap();
+    let sysroot = String::from_utf8(sysroot.stdout).unwrap();
+    let linkers = Command::new("find").args([sysroot.trim(), "-path", "*gcc-ld/ld.lld"]).output().unwrap();
+    let linkers = String::from_utf8(linkers.stdout).unwrap();
+    let linker = format!("--ld-path={}", linkers.lines().next().expect("Rust brings a linker"));
+    let sources = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/c99");
+    let (board, script) = (format!("{sources}/board.c"), format!("-Wl,-T,{sources}/board.ld"));
+    let for_board = [
+        "--target=thumbv7em-none-eabihf",
+        "-mcpu=cortex-m4",
+        "-mfpu=fpv4-sp-d16",
+        "-mfloat-abi=hard",
+        "-O1",
+        "-ffreestanding",
+        "-fno-math-errno",
+        "-nostdlib",
+        "-DBOARD",
+        "-DBOT_SQRT=__builtin_sqrtf",
+        &board,
+        &linker,
+        &script,
+    ];
+    let mut compared = 0;
+    for entry in zoo::all() {
+        let Some(Forms { robot, .. }) = &entry.single else { continue };
+        let (states, frames) = (narrowed::<f32>(&entry), frames(&**robot));
+        let here = run(&entry, &frames, &states, &["-O0"]);
+        let folder = folder(&format!("{}_board", entry.name));
+        write(&entry, &frames, &states, &folder);
+        compile(&entry, &folder, "clang", &for_board);
+        let mut emulator = Command::new("qemu-system-arm");
+        emulator.args(["-machine", "mps2-an386", "-cpu", "cortex-m4", "-nographic", "-semihosting-config"]);
+        emulator.args(["enable=on,target=native", "-kernel"]).arg(folder.join("run"));
+        let there: Vec<Results<f32>> = results(&entry, &mut emulator);
+        for (here, there) in here.iter().zip(&there) {
+            for (name, here) in here {
+                let bits = |values: &[f32]| values.iter().map(|x| (x + 0.0).to_bits()).collect::<Vec<_>>();
+                assert_eq!(bits(&there[name]), bits(here), "{}: {name}", entry.name);
+                compared += 1;
+            }
+        }
+        assert_eq!(here.len(), there.len(), "{}", entry.name);
+    }
+    assert!(compared > 2_000, "{compared} results compared");
 }

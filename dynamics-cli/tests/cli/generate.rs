@@ -230,7 +230,7 @@ fn c_is_two_files_that_compile() {
 #[test]
 fn a_name_that_c_cannot_have_is_refused() {
     let iiwa = model("iiwa14");
-    let named = |name: &str| dynamics(&["generate", &iiwa, "--lang", "c", "--name", name]).failed(1);
+    let named = |name: &str| dynamics(&["generate", &iiwa, "--lang", "c", "--name", name]).failed(2);
     assert!(named("Iiwa").contains("a prefix is of small letters"));
     assert!(named("a_long_prefix").contains("at most 11 characters"));
 }
