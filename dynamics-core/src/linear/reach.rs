@@ -69,6 +69,9 @@ impl<T: Real, const N: usize> Reach<T, N> {
 /// Rounding is `10·N·ε` of the norms of A and of B in the units of the states as they are: choose some in which states are
 /// of about one size. In others, what cancelled in a model would pass for a coupling.
 ///
+/// The answer is that of the linear model. Where a robot does not stay in its state, the model holds for a short while
+/// only: of a robot that falls, motors reach the horizontal momentum too, in the axes of its base, as these tilt.
+///
 /// # Errors
 ///
 /// [`LinearError::NotFinite`], [`LinearError::NoConvergence`].
