@@ -1,8 +1,13 @@
-//! The robojudge of the lecture EECS C106A, discussion 9: its M and V, then the box that it tosses.
+//! The robojudge of the lecture EECS C106A, discussion 9: its M and V, the box that it tosses, and its wave to a winner.
 //!
-//! `cargo run --example robojudge`
+//! `cargo run --example robojudge`, and in pictures `cargo run --example robojudge -- --plot wave.svg --animate wave.html`
 
+use std::f64::consts::TAU;
+
+use dynamics_core::control::ComputedTorque;
 use dynamics_core::prelude::*;
+use dynamics_examples::draw;
+use dynamics_view::Recording;
 
 /// A column that turns, and an arm that pitches on top of it: problem 5.
 #[derive(Dynamics)]
@@ -41,9 +46,16 @@ const JUDGE: RoboJudge = RoboJudge {
     ix1: 0.30, iy1: 0.30, iz1: 0.05, ix2: 0.06, iy2: 0.01, iz2: 0.055,
 };
 
-fn main() -> Result<(), Error> {
+/// The winner's side, how high the hand is held and how far it waves, in rad, and how often, in 1/s.
+const WINNER: f64 = 1.2;
+const RAISED: f64 = -1.0;
+const WAVE: f64 = 0.35;
+const RATE: f64 = 1.5;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     judge();
-    toss()
+    toss()?;
+    wave()
 }
 
 /// `M` and `V` beside the lecture's formulas.
@@ -94,6 +106,39 @@ fn toss() -> Result<(), Error> {
         println!("{:9.1} {:11.4}   {x:9.6} {y:9.6} {z:9.6}", sample.time, sample.state.q[0]);
     }
     Ok(())
+}
+
+/// It turns to the winner, raises its arm and waves, by computed torque.
+fn wave() -> Result<(), Box<dyn std::error::Error>> {
+    let judge = JUDGE.prepare();
+    let hello = |time: f64| {
+        let (s, c) = (TAU * RATE * time).sin_cos();
+        let rate = TAU * RATE;
+        Reference {
+            q: SVector::from([WINNER, RAISED + WAVE * s]),
+            v: SVector::from([0.0, WAVE * rate * c]),
+            a: SVector::from([0.0, -WAVE * rate * rate * s]),
+        }
+    };
+    let controller = ComputedTorque::critically_damped(SVector::from([4.0, 6.0]));
+    let torque = |time, state: &_| controller.torque(&judge, state, &hello(time));
+    let mut simulation = Simulation::new(&judge, State::rest(SVector::zeros()), 1e-3)?.with_input(torque);
+    let mut seen = Recording::of(&judge).with_masses();
+    seen.see(&simulation.sample());
+    println!("\nIt waves to the winner, who is {WINNER} rad to its left:");
+    println!("  time, s   column, rad   arm, rad   should be   torques, N m");
+    for _ in 0..8 {
+        let sample = seen.watch(simulation.steps(500)).last().expect("500 steps have a last")?;
+        let (q, tau) = (sample.state.q, torque(sample.time, &sample.state));
+        let arm = hello(sample.time).q[1];
+        println!("{:9.1} {:13.5} {:10.5} {arm:11.5} {:8.3} {:6.3}", sample.time, q[0], q[1], tau[0], tau[1]);
+    }
+    let miss = (hello(simulation.time()).q - simulation.state().q).norm();
+    println!("After four seconds it is {miss:.1e} rad from its wave.");
+    if miss > 1e-4 {
+        return Err("the robojudge does not wave as it should".into());
+    }
+    draw(|| seen.figure("A robojudge that waves"), || seen.film().tracing("arm"))
 }
 
 fn row(what: &str, derived: f64, lecture: f64) {
