@@ -1,5 +1,6 @@
 //! The C of the whole zoo is clean C99. In `double` it computes what the interpreter computes, to the last bit; in both
 //! types what the compiled Rust computes.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use std::collections::BTreeMap;
