@@ -136,12 +136,11 @@ fn with_wrist(arm: SVector<f64, 3>, wrist: f64) -> SVector<f64, 6> {
 fn learning() -> SVector<f64, NB> {
     SVector::from_fn(|k, _| {
         let name = Puma560Prepared::BASE_PARAMETER_NAMES[k];
+        let hand = if name.starts_with("joint6") { 1e-2 } else { 1.0 };
         if name.contains("mass") {
-            2.0
-        } else if name.starts_with("joint6.moment") {
-            1e-3
+            2.0 * hand
         } else if name.contains("moment") {
-            0.1
+            0.1 * hand
         } else {
             0.0
         }
