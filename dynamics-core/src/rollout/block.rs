@@ -50,7 +50,7 @@ impl<T: Element> Soundness<'_, T> {
         time: T,
     ) {
         // Zero where all is finite, else not a number.
-        let nothing = state.q.iter().chain(state.v.iter()).fold(L::zero(), |sum, x| sum + (*x - *x));
+        let nothing = state.q.iter().chain(state.v.iter()).fold(L::zero(), |sum, x| sum + *x * L::zero());
         if nothing.is_finite() {
             let unlost = self.sound.iter_mut().zip(&self.is_lost).filter(|(_, is_lost)| !**is_lost);
             unlost.for_each(|(sound, _)| *sound = time);
