@@ -14,7 +14,7 @@ pub(crate) enum Failure {
     /// What is wrong, in order; at least one problem.
     Wrong(Vec<Problem>),
     /// Options that do not go together, as the parser of the command line complains of them.
-    CommandLine(Problem),
+    CommandLine(Box<Problem>),
     /// Who read the output has gone: there is nobody to tell.
     PipeClosed,
 }
@@ -110,7 +110,7 @@ impl Failure {
                 ExitCode::FAILURE
             }
             Self::CommandLine(problem) => {
-                render::to_stderr(&[problem]);
+                render::to_stderr(&[*problem]);
                 ExitCode::from(2)
             }
             Self::PipeClosed => ExitCode::SUCCESS,

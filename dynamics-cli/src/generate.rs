@@ -75,7 +75,7 @@ struct File {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     if args.check && args.lang == Language::Rust && args.output.is_none() {
         let problem = Problem::new("`--check` of a file in Rust needs `--output`");
-        return Err(Failure::CommandLine(problem.help("name the file by `-o`")));
+        return Err(Failure::CommandLine(problem.help("name the file by `-o`").into()));
     }
     let given = args.name.as_deref().map(|name| checked(name, args.lang)).transpose()?;
     let input = args.input.read()?;
@@ -112,7 +112,7 @@ fn checked(name: &str, lang: Language) -> Result<&str, Failure> {
         Language::C => check_prefix(name).err(),
     };
     let refused = |why| Problem::new(format!("`--name {}`: {why}", shown(name))).help("give another name");
-    why.map_or(Ok(name), |why| Err(Failure::CommandLine(refused(why))))
+    why.map_or(Ok(name), |why| Err(Failure::CommandLine(refused(why).into())))
 }
 
 /// The robot's name as that of a type or a prefix, if it can be one.

@@ -520,8 +520,19 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
         write(&entry, &frames, &states, &folder);
         compile(&entry, &folder, "clang", &for_board);
         let mut emulator = Command::new("qemu-system-arm");
-        emulator.args(["-machine", "mps2-an386", "-cpu", "cortex-m4", "-nographic", "-semihosting-config"]);
-        emulator.args(["enable=on,target=native", "-kernel"]).arg(folder.join("run"));
+        emulator.args([
+            "-machine",
+            "mps2-an386",
+            "-cpu",
+            "cortex-m4",
+            "-display",
+            "none",
+            "-monitor",
+            "none",
+        ]);
+        emulator.args(["-serial", "none", "-chardev", "stdio,id=console", "-semihosting-config"]);
+        emulator.args(["enable=on,target=native,chardev=console", "-kernel"]).arg(folder.join("run"));
+        emulator.stdin(std::process::Stdio::null());
         let there: Vec<Results<f32>> = results(&entry, &mut emulator);
         for (here, there) in here.iter().zip(&there) {
             for (name, here) in here {

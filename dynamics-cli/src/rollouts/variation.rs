@@ -299,6 +299,7 @@ mod tests {
     fn values(option: &'static str, text: &str, unit: Option<[i32; 3]>) -> Result<Values, String> {
         let title = |failure| match failure {
             Failure::Wrong(problems) => problems.into_iter().map(|problem| problem.title).collect::<String>(),
+            Failure::CommandLine(problem) => problem.title,
             Failure::PipeClosed => String::new(),
         };
         Given::read(option, text).and_then(|given| given.values(unit)).map_err(title)
