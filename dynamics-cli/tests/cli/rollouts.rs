@@ -132,7 +132,7 @@ fn a_grid_goes_through_all_and_draws_the_same_at_each_point() {
         "--count",
         "2",
     ];
-    let (_, rows) = table(&dynamics(&[&["rollouts", &cart][..], &LOADED, &grid].concat()).ok().leak());
+    let (_, rows) = table(dynamics(&[&["rollouts", &cart][..], &LOADED, &grid].concat()).ok().leak());
     let starts: Vec<&[f64]> = rows.iter().step_by(2).map(|row| &row[2..5]).collect();
     assert_eq!(rows.len(), 24);
     for (k, start) in starts.iter().enumerate() {
