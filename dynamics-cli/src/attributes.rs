@@ -37,7 +37,7 @@ impl Attributes {
                 let at = error.span();
                 let title = format!("`--{}` has a bracket or a quote without its partner", given.option);
                 let mut problem = Problem::new(title).help("close what is opened");
-                problem.spot = Some(given.spot(0, at.start(), at.end()));
+                problem.spot = Some(given.spot(0, at.start(), at.end()).into());
                 return Err(problem.into());
             }
         }

@@ -25,7 +25,7 @@ pub(crate) struct Problem {
     /// The fact: lower case, no full stop.
     pub(crate) title: String,
     /// Where it was written.
-    pub(crate) spot: Option<Spot>,
+    pub(crate) spot: Option<Box<Spot>>,
     /// What to do now.
     pub(crate) help: Option<String>,
     /// The name in the catalogue.
@@ -83,7 +83,7 @@ impl Problem {
         };
         Self {
             title: for_the_command_line(&found.message),
-            spot,
+            spot: spot.map(Box::new),
             help: Some(for_the_command_line(found.help_text())),
             code: Some(found.code.to_string()),
         }

@@ -241,7 +241,7 @@ fn not_json(error: &serde_json::Error, file: String, text: &str) -> Failure {
     let spot = Spot::in_text(file, text, error.line().max(1), column_of(text, error));
     let mut problem =
         Problem::new(format!("the state is no JSON object of vectors: {message}")).help(EXAMPLE);
-    problem.spot = Some(spot);
+    problem.spot = Some(spot.into());
     problem.into()
 }
 

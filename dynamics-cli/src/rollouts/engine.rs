@@ -288,7 +288,7 @@ impl<'e> Mover<'e> {
     /// Notes which rollouts are no longer finite; they were so at `before`.
     fn note_losses(&self, before: f64, rollouts: &mut [Rollout]) {
         // Zero where all is finite, else not a number.
-        let nothing = self.q.iter().chain(&self.v).fold(Wide::from(0.0), |sum, x| sum + (*x - *x));
+        let nothing = self.q.iter().chain(&self.v).fold(Wide::from(0.0), |sum, x| sum + *x * Wide::from(0.0));
         let nothing = nothing.to_array();
         if nothing.iter().all(|x| x.is_finite()) {
             return;

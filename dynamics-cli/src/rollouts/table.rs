@@ -111,7 +111,7 @@ impl Table {
         Ok(Self { path, of_rollout, columns: of_rollout + of_sample.len(), sink, draft })
     }
 
-    /// Whether [`rows`] are to be text.
+    /// Whether `rows` are to be text.
     pub(super) fn is_text(&self) -> bool {
         matches!(self.sink, Sink::Csv(_))
     }

@@ -288,7 +288,7 @@ fn problem_of(found: &Diagnostic, option: &'static str, text: &str) -> Problem {
 }
 
 fn spotted(problem: Problem, option: &str, text: &str, characters: Range<usize>) -> Problem {
-    Problem { spot: Some(Spot::in_line(format!("--{option}"), text, characters)), ..problem }
+    Problem { spot: Some(Spot::in_line(format!("--{option}"), text, characters).into()), ..problem }
 }
 
 #[cfg(test)]
