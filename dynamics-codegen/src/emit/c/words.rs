@@ -81,7 +81,12 @@ pub(super) fn describe(cost: Cost) -> String {
         (cost.sines_and_cosines, "sines with their cosines"),
     ];
     let parts = parts.iter().filter(|(count, _)| *count > 0);
-    let parts: Vec<String> = parts.map(|(count, name)| format!("{count} {name}")).collect();
+    let part = |&(count, name): &(u32, &str)| match (count, name) {
+        (1, "sines with their cosines") => "1 sine with its cosine".to_owned(),
+        (1, name) => format!("1 {}", name.trim_end_matches('s')),
+        _ => format!("{count} {name}"),
+    };
+    let parts: Vec<String> = parts.map(part).collect();
     if parts.is_empty() { "No arithmetic.".to_owned() } else { parts.join(", ") + "." }
 }
 
@@ -92,7 +97,7 @@ pub(super) fn comment(lines: &[String]) -> String {
         [only] => format!("/* {} */\n", safe(only)),
         _ => {
             let lines: Vec<String> = lines.iter().map(|line| safe(line)).collect();
-            format!("/* {}\n */\n", lines.join("\n * "))
+            format!("/* {}\n */\n", lines.join("\n * ").replace(" * \n", " *\n"))
         }
     }
 }
