@@ -16,11 +16,11 @@ use rayon::ThreadPoolBuilder;
 type Moving = State<f64, 7, 7>;
 
 const ROLLOUTS: usize = 256;
-const STEPS: usize = 1000;
+const STEPS: usize = 500;
 const STEP: f64 = 1e-3;
 /// The best of so many turns counts.
 const TURNS: usize = 5;
-/// Where two ends may differ, in rad and rad/s. Accelerations agree to some 1e-13 of themselves; in a second of free
+/// Where two ends may differ, in rad and rad/s. Accelerations agree to some 1e-13 of themselves; in half a second of free
 /// swinging a difference grows by some thousands. Another method, step or robot would be seen at 1e-4 and more.
 const TOLERANCE: f64 = 1e-8;
 
