@@ -170,7 +170,7 @@ mod tests {
 
     #[test]
     fn gains_solve_the_riccati_equation() {
-        for regulator in regulators().unwrap() {
+        for regulator in regulators().expect("every robot has a regulator") {
             let (constant, residual) = (regulator.constant, regulator.residual());
             eprintln!("{constant}: residual {residual:.1e}");
             assert!(residual <= RICCATI, "{constant}: {residual:e}");
@@ -186,7 +186,8 @@ mod tests {
             committed(&PUMA560.gain),
             committed(&IIWA14.gain),
         ];
-        for (Regulator { constant, k, .. }, committed) in regulators().unwrap().iter().zip(committed) {
+        let found = regulators().expect("every robot has a regulator");
+        for (Regulator { constant, k, .. }, committed) in found.iter().zip(committed) {
             let error = (k - &committed).amax() / k.amax();
             assert!(error <= f64::from(f32::EPSILON), "{constant}: {error:e}");
         }
@@ -203,11 +204,13 @@ mod tests {
         let gain = committed(&setup.gain);
         let input_map = robot.input_map();
         let start = State::rest(pose + SVector::from(setup.swing.map(f64::from)) * 0.25);
-        let mut simulation = Simulation::new(robot, start, 1e-3).unwrap().with_input(|_, state| {
+        let simulation = Simulation::new(robot, start, 1e-3).expect("the start is finite");
+        let mut simulation = simulation.with_input(|_, state| {
             let x = DVector::from_iterator(NX, (state.q - pose).iter().chain(&state.v).copied());
             hold - input_map * SVector::<f64, NU>::from_column_slice((&gain * x).as_slice())
         });
-        let last = simulation.steps(1000 * SECONDS).last().unwrap().unwrap();
+        let last = simulation.steps(1000 * SECONDS).last().expect("there are steps");
+        let last = last.expect("the robot stays finite");
         let left = (last.state.q - pose).amax().max(last.state.v.amax());
         eprintln!("{}: {left:.1e} left", setup.name);
         assert!(left <= 1e-3, "{}: {left:e} is left after {SECONDS} s", setup.name);
