@@ -97,6 +97,12 @@ impl Error {
         vector: &'static str,
         x: &SVector<T, N>,
     ) -> Result<(), Self> {
+        Self::unless_all_finite(vector, x.as_slice())
+    }
+
+    /// [`unless_finite`](Self::unless_finite), of a length that is not known.
+    #[inline]
+    pub(crate) fn unless_all_finite<T: Scalar>(vector: &'static str, x: &[T]) -> Result<(), Self> {
         match x.iter().position(|entry| !entry.is_finite()) {
             Some(index) => Err(Self::NotFinite { vector, index }),
             None => Ok(()),

@@ -6,10 +6,12 @@ mod controller;
 mod dopri5;
 mod euler;
 mod event;
+mod flow;
 mod integrator;
 mod locate;
+mod march;
 mod monitor;
-mod numbers;
+pub(crate) mod numbers;
 mod rk4;
 mod sample;
 mod segment;
@@ -23,11 +25,13 @@ pub use euler::SemiImplicitEuler;
 pub use event::{
     Arrival, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
 };
-pub use integrator::{Explicit, Integrator};
+pub use flow::{Flow, Vector};
+pub use integrator::{Explicit, Integrator, Method};
+pub use march::March;
 pub use monitor::{EnergyMonitor, Momentum, MomentumMonitor};
 pub use rk4::Rk4;
 pub use sample::{Energy, Sample};
-pub use segment::Segment;
+pub use segment::{Piece, Segment};
 pub use tolerances::Tolerances;
 #[cfg(feature = "std")]
 pub use trajectory::Trajectory;
@@ -147,24 +151,12 @@ where
     /// # Errors
     ///
     /// If the new state is not finite: [`Error::SingularMassMatrix`] or [`Error::NotFinite`] of `tau` or `a`, where the
-    /// state before the step already has it; else [`Error::NotFinite`] of the new state. Those of the integrator. The
-    /// simulation then stays where it was.
+    /// state before the step already has it, of `tau` also where the end of the step has it; else [`Error::NotFinite`] of the
+    /// new state. Those of the integrator. The simulation then stays where it was.
     pub fn step(&mut self) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
-        let next = self
-            .integrator
-            .step(self.robot, self.clock.time, &self.state, self.step, &mut self.input)
-            .and_then(|next| next.check().map(|()| next));
-        self.state = next.map_err(|error| self.cause().unwrap_or(error))?;
-        self.clock = self.clock.after(self.step);
-        Ok(self.sample())
-    }
-
-    /// What is wrong with the state that a step began with.
-    #[cold]
-    fn cause(&mut self) -> Option<Error> {
-        let State { q, v } = &self.state;
-        let tau = (self.input)(self.clock.time, &self.state);
-        self.robot.try_forward_dynamics(q, v, &tau).err()
+        let Self { robot, integrator, input, step, clock, state } = self;
+        let next = stepped(*robot, integrator, clock.time, state, *step, input)?;
+        Ok(self.arrive(next))
     }
 
     /// The samples after each of the next `count` steps; ends early behind the first error.
@@ -175,6 +167,73 @@ where
             Some(self.step())
         })
     }
+}
+
+impl<'r, R, T, const NQ: usize, const NV: usize, I, U> Simulation<'r, R, T, NQ, NV, I, U>
+where
+    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
+    T: Scalar,
+    I: Integrator,
+{
+    /// Goes one step on under the joint forces `tau`, in N·m or N, which stay as they are until its end, and returns where
+    /// that leads: the robot under a control loop that runs once in each step.
+    ///
+    /// The simulation's own input is not asked.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`step`](Self::step).
+    ///
+    /// # Example
+    ///
+    /// ```
+    /// # use dynamics_core::prelude::*;
+    /// # fn reach<R>(robot: &R, goal: SVector<f64, 2>) -> Result<(), Error>
+    /// # where R: Dynamics<f64, 2, 2> + Configuration<f64, 2, 2> {
+    /// let controller = control::ComputedTorque::critically_damped(SVector::repeat(8.0));
+    /// let mut simulation = Simulation::new(robot, State::rest(SVector::zeros()), 1e-3)?;
+    /// for _ in 0..2000 {
+    ///     let tau = controller.torque(robot, simulation.state(), &Reference::rest(goal));
+    ///     simulation.step_with(&tau)?;
+    /// }
+    /// # Ok(()) }
+    /// ```
+    pub fn step_with(&mut self, tau: &SVector<T, NV>) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
+        let Self { robot, integrator, step, clock, state, .. } = self;
+        let next = stepped(*robot, integrator, clock.time, state, *step, |_, _| *tau)?;
+        Ok(self.arrive(next))
+    }
+
+    /// Is in the next state, one step later.
+    fn arrive(&mut self, next: State<T, NQ, NV>) -> Sample<'r, R, T, NQ, NV> {
+        (self.state, self.clock) = (next, self.clock.after(self.step));
+        self.sample()
+    }
+}
+
+/// The next state if it is finite; else what is wrong, with the state before the step if that has it already.
+fn stepped<R, T, I, const NQ: usize, const NV: usize>(
+    robot: &R,
+    integrator: &I,
+    time: T,
+    state: &State<T, NQ, NV>,
+    step: T,
+    mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
+) -> Result<State<T, NQ, NV>, Error>
+where
+    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
+    T: Scalar,
+    I: Integrator,
+{
+    let next =
+        integrator.step(robot, time, state, step, &mut input).and_then(|next| next.check().map(|()| next));
+    next.map_err(|error| {
+        let tau = input(time, state);
+        let cause = robot.try_forward_dynamics(&state.q, &state.v, &tau).map(|_| ());
+        // An input that ends within the step.
+        let cause = cause.and_then(|()| Error::unless_finite("tau", &input(time + step, state)));
+        cause.err().unwrap_or(error)
+    })
 }
 
 impl<R, T: Scalar, I: Clone, U: Clone, const NQ: usize, const NV: usize> Clone

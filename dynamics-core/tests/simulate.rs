@@ -132,6 +132,28 @@ fn what_is_not_finite_ends_the_iteration() {
         .with_input(|time, _| SVector::from([0.0, if time > 0.095 { f64::NAN } else { 0.0 }]));
     let samples: Vec<_> = simulation.steps(100).collect();
     assert_eq!(samples.iter().filter(|sample| sample.is_ok()).count(), 9);
-    assert!(samples.last().is_some_and(Result::is_err) && samples.len() == 10);
+    assert_eq!(samples.len(), 10);
+    let error = samples.last().and_then(|sample| sample.as_ref().err());
+    assert_eq!(error, Some(&Error::NotFinite { vector: "tau", index: 1 }), "the input ends within the step");
     assert!(simulation.state().check().is_ok(), "the last good state stays");
+}
+
+/// A control loop that computes its own torque, and the same torque as an input that does not change.
+#[test]
+fn a_torque_from_outside_is_held_over_the_step() {
+    let start = State::rest(SVector::from(Q0));
+    let mut simulation = Simulation::new(&DoublePendulum, start, 1e-2)
+        .expect("valid")
+        .with_input(|_, _| SVector::repeat(f64::NAN)); // is not asked
+    let mut expected = start;
+    for step in 1..=100 {
+        let tau = simulation.state().v * -0.5;
+        let sample = simulation.step_with(&tau).expect("finite");
+        expected = Rk4.step(&DoublePendulum, 0.0, &expected, 1e-2, |_, _| tau).expect("explicit");
+        assert_eq!(sample.state, expected);
+        assert!((sample.time - 1e-2 * f64::from(step)).abs() < 1e-15);
+    }
+    let lost = simulation.step_with(&SVector::from([0.0, f64::INFINITY])).err();
+    assert_eq!(lost, Some(Error::NotFinite { vector: "tau", index: 1 }));
+    assert_eq!(simulation.state(), &expected, "it stays where it was");
 }

@@ -2,13 +2,11 @@
 
 use nalgebra::SVector;
 
-use super::clock::Clock;
-use super::controller::{Controller, fifth_root};
-use super::dopri5::{Attempt, Start, attempt};
 use super::event::{Arrival, Event};
+use super::flow::Driven;
 use super::locate::{self, Moment};
-use super::numbers::{larger, magnitude, rounding, smaller};
-use super::tolerances::Part;
+use super::march::March;
+use super::numbers::smaller;
 use super::{Sample, Segment, Tolerances, Unforced, until_error};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -53,39 +51,10 @@ use crate::state::{Configuration, State};
 pub struct Adaptive<'r, R, T, const NQ: usize, const NV: usize, U = Unforced<T, NQ, NV>> {
     robot: &'r R,
     input: U,
-    tolerances: Tolerances<T>,
-    steps: Steps<T>,
-    controller: Controller<T>,
-    front: Front<T, NQ, NV>,
-    /// Where the simulation is: at the front, or on the step that leads to it.
+    march: March<T, SVector<T, NQ>, SVector<T, NV>>,
+    /// Where the simulation is: at the end of the last step, or on it.
     time: T,
     state: State<T, NQ, NV>,
-}
-
-/// The bounds of steps.
-#[derive(Clone, Copy, Debug)]
-struct Steps<T> {
-    least: T,
-    greatest: Option<T>,
-    most: usize,
-    /// The next one, if there was one before.
-    next: Option<T>,
-}
-
-/// How far the steps have got.
-#[derive(Clone, Copy, Debug)]
-struct Front<T, const NQ: usize, const NV: usize> {
-    clock: Clock<T>,
-    state: State<T, NQ, NV>,
-    acceleration: Option<SVector<T, NV>>,
-    /// The step that led there.
-    segment: Option<Segment<T, NQ, NV>>,
-}
-
-impl<T: Scalar, const NQ: usize, const NV: usize> Front<T, NQ, NV> {
-    fn at(time: T, state: State<T, NQ, NV>) -> Self {
-        Self { clock: Clock::at(time), state, acceleration: None, segment: None }
-    }
 }
 
 impl<'r, R, T, const NQ: usize, const NV: usize> Adaptive<'r, R, T, NQ, NV>
@@ -99,13 +68,10 @@ where
     ///
     /// [`Error::ToleranceNotPositive`]; [`Error::NotFinite`] and [`Error::NotUnitQuaternion`] for the state.
     pub fn new(robot: &'r R, state: State<T, NQ, NV>, tolerances: Tolerances<T>) -> Result<Self, Error> {
-        tolerances.check()?;
-        state.check()?;
+        let march = March::new((state.q, state.v), tolerances)?;
         robot.check_configuration(&state.q)?;
         let input: Unforced<T, NQ, NV> = |_, _| SVector::zeros();
-        let steps = Steps { least: T::zero(), greatest: None, most: 1_000_000, next: None };
-        let (time, controller) = (T::zero(), Controller::new());
-        Ok(Self { robot, input, tolerances, steps, controller, front: Front::at(time, state), time, state })
+        Ok(Self { robot, input, march, time: T::zero(), state })
     }
 }
 
@@ -119,9 +85,9 @@ where
     where
         W: FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
     {
-        let Self { robot, tolerances, steps, controller, time, state, .. } = self;
-        let front = Front::at(time, state);
-        Adaptive { robot, input, tolerances, steps, controller, front, time, state }
+        let Self { robot, mut march, time, state, .. } = self;
+        march.restart(time, (state.q, state.v));
+        Adaptive { robot, input, march, time, state }
     }
 
     /// The same simulation in steps from `least` to `greatest`, in s; the last one before a given time may be shorter.
@@ -131,20 +97,14 @@ where
     /// # Errors
     ///
     /// [`Error::StepNotPositive`] if one is not positive and finite, or `least` is above `greatest`.
-    pub fn with_steps(mut self, least: T, greatest: T) -> Result<Self, Error> {
-        let positive = least > T::zero() && greatest >= least && greatest.is_finite();
-        if !positive {
-            return Err(Error::StepNotPositive);
-        }
-        self.steps = Steps { least, greatest: Some(greatest), ..self.steps };
-        Ok(self)
+    pub fn with_steps(self, least: T, greatest: T) -> Result<Self, Error> {
+        Ok(Self { march: self.march.with_steps(least, greatest)?, ..self })
     }
 
     /// The same simulation with at most so many steps in each call, tried ones too; a million without it.
     #[must_use]
-    pub fn with_most_steps(mut self, most: usize) -> Self {
-        self.steps.most = most;
-        self
+    pub fn with_most_steps(self, most: usize) -> Self {
+        Self { march: self.march.with_most_steps(most), ..self }
     }
 
     /// The time since the start, in s.
@@ -168,7 +128,7 @@ where
     /// The last step, in which or at whose end the simulation is; none before the first, and after a change of state.
     #[must_use]
     pub fn segment(&self) -> Option<&Segment<T, NQ, NV>> {
-        self.front.segment.as_ref()
+        self.march.piece()
     }
 }
 
@@ -187,7 +147,7 @@ where
         state.check()?;
         self.robot.check_configuration(&state.q)?;
         self.state = state;
-        self.front = Front::at(self.time, state);
+        self.march.restart(self.time, (state.q, state.v));
         Ok(())
     }
 
@@ -223,11 +183,11 @@ where
     {
         let mut left = self.check_ahead(time)?;
         while self.time < time {
-            if self.time == self.front.clock.time {
+            if self.time == self.march.time() {
                 self.take_step(time, &mut left)?;
             }
-            let end = smaller(self.front.clock.time, time);
-            if let Some(segment) = &self.front.segment {
+            let end = smaller(self.march.time(), time);
+            if let Some(segment) = self.march.piece() {
                 let from = Moment { time: self.time, state: self.state };
                 if let Some((moment, events)) = locate::first(self.robot, segment, from, end, events)? {
                     (self.time, self.state) = (moment.time, moment.state);
@@ -242,7 +202,7 @@ where
     /// How many steps there are for going to `time`, if that is not before now.
     pub(super) fn check_ahead(&self, time: T) -> Result<usize, Error> {
         let ahead = time >= self.time && time.is_finite();
-        if ahead { Ok(self.steps.most) } else { Err(Error::TimeNotAhead) }
+        if ahead { Ok(self.march.most_steps()) } else { Err(Error::TimeNotAhead) }
     }
 
     /// The joint forces now.
@@ -297,8 +257,8 @@ where
 
     /// Goes to `time` by steps that may lead beyond it, up to `until`.
     fn sample_on_the_way(&mut self, time: T, until: T) -> Result<Sample<'r, R, T, NQ, NV>, Error> {
-        let mut left = self.steps.most;
-        while self.front.clock.time < time {
+        let mut left = self.march.most_steps();
+        while self.march.time() < time {
             self.take_step(until, &mut left)?;
         }
         self.go_to(time);
@@ -307,101 +267,22 @@ where
 
     /// Goes to the end of the step, or of the next one if it is there, or to `until` if that is on it.
     pub(super) fn step(&mut self, until: T, left: &mut usize) -> Result<(), Error> {
-        if self.time == self.front.clock.time {
+        if self.time == self.march.time() {
             self.take_step(until, left)?;
         }
-        self.go_to(smaller(self.front.clock.time, until));
+        self.go_to(smaller(self.march.time(), until));
         Ok(())
     }
 
     /// Goes to a time on the last step.
     fn go_to(&mut self, time: T) {
-        self.state = match &self.front.segment {
-            Some(segment) if time < self.front.clock.time => segment.at(self.robot, time),
-            _ => self.front.state,
-        };
-        self.time = time;
+        let (q, v) = self.march.at(time, |q, delta| self.robot.integrate(q, delta));
+        (self.time, self.state) = (time, State { q, v });
     }
 
-    /// Moves the front on by one step, and not beyond `until`.
+    /// Goes one step on from the end of the last one, and not beyond `until`.
     fn take_step(&mut self, until: T, left: &mut usize) -> Result<(), Error> {
-        let Front { clock, state, .. } = self.front;
-        let acceleration = self.acceleration()?;
-        let mut next = match self.steps.next {
-            Some(step) => step,
-            None => self.first_step(acceleration, until - clock.time),
-        };
-        let time = clock.time.into();
-        let mut failure = Error::StepTooSmall { time };
-        loop {
-            let step = self.bounded(next, until - clock.time).ok_or(failure)?;
-            *left = left.checked_sub(1).ok_or(Error::TooManySteps { time })?;
-            let ends = step == until - clock.time;
-            let after = if ends { Clock::at(until) } else { clock.after(step) };
-            let start = Start { state: &state, acceleration, times: [clock.time, after.time], step };
-            let Attempt { state: reached, acceleration, segment, error } =
-                attempt(self.robot, &start, &self.tolerances, &mut self.input);
-            let sound = Error::unless_finite("a", &acceleration).and_then(|()| reached.check());
-            if sound.is_ok() && error <= T::one() {
-                let suggested = step * self.controller.accepted(error);
-                // A step that was cut short by its end says little of the next one.
-                self.steps.next = Some(if ends { larger(suggested, next) } else { suggested });
-                let acceleration = Some(acceleration);
-                self.front = Front { clock: after, state: reached, acceleration, segment: Some(segment) };
-                return Ok(());
-            }
-            failure = sound.err().unwrap_or(Error::StepTooSmall { time });
-            if step <= self.steps.least {
-                return Err(failure);
-            }
-            next = larger(step * self.controller.rejected(error), self.steps.least);
-        }
-    }
-
-    /// The acceleration at the front.
-    fn acceleration(&mut self) -> Result<SVector<T, NV>, Error> {
-        if let Some(acceleration) = self.front.acceleration {
-            return Ok(acceleration);
-        }
-        let Front { clock, state: State { q, v }, .. } = &self.front;
-        let tau = (self.input)(clock.time, &self.front.state);
-        self.robot.try_forward_dynamics(q, v, &tau)
-    }
-
-    /// The step within its bounds, and within the time that remains; none that is too small.
-    fn bounded(&self, step: T, remaining: T) -> Option<T> {
-        let Steps { least, greatest, .. } = self.steps;
-        let step = greatest.map_or(step, |greatest| smaller(step, greatest));
-        // The time that rounding resolves.
-        let grain = magnitude(self.front.clock.time) * rounding::<T>() * T::of(16.0);
-        if step.mul_add(T::of(1e-2), step) >= remaining {
-            return Some(remaining);
-        }
-        let in_halves = step + step >= remaining && least + least <= remaining;
-        let step = if in_halves { remaining * T::of(0.5) } else { step };
-        let sound = step >= larger(grain, T::of(1e-30));
-        sound.then_some(larger(step, least))
-    }
-
-    /// A first step, by how fast speeds change, and how fast that does.
-    ///
-    /// # Source
-    ///
-    /// E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993, §II.4.
-    fn first_step(&mut self, acceleration: SVector<T, NV>, remaining: T) -> T {
-        let Front { clock, state: State { q, v }, .. } = self.front;
-        let norm = |x: &SVector<T, NV>| self.tolerances.norm([Part { x, sizes: [&v, &v] }]);
-        let (size, rate) = (norm(&v), norm(&acceleration));
-        let small = T::of(1e-5);
-        let guess = if size > small && rate > small { T::of(0.01) * (size / rate) } else { T::of(1e-6) };
-        let guess = smaller(guess, remaining);
-        let after = State { q: self.robot.integrate(&q, &(v * guess)), v: v + acceleration * guess };
-        let tau = (self.input)(clock.time + guess, &after);
-        let change = self.robot.forward_dynamics(&after.q, &after.v, &tau) - acceleration;
-        let bend = larger(rate, norm(&change) / guess);
-        let smooth = if bend > T::of(1e-15) { fifth_root(T::of(0.01) / bend) } else { remaining };
-        let step = smaller(smaller(guess * T::of(100.0), smooth), remaining);
-        larger(step, self.steps.least)
+        self.march.step(&mut Driven::new(self.robot, &mut self.input), until, left)
     }
 }
 

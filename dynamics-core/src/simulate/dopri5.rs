@@ -1,12 +1,12 @@
 //! One step of the method of Dormand and Prince, in the chart of the state that it begins at.
 
-use nalgebra::SVector;
+use num_traits::Zero;
 
-use super::segment::{Quartic, Segment};
+use super::flow::{Flow, Vector};
+use super::segment::{Piece, Quartic};
 use super::tolerances::{Part, Tolerances};
-use crate::dynamics::Dynamics;
+use crate::error::Error;
 use crate::scalar::Scalar;
-use crate::state::{Configuration, State};
 
 /// The times of the stages, in steps.
 const TIMES: [f64; 7] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
@@ -38,24 +38,35 @@ const DENSE: [f64; 7] = [
 ];
 
 /// What a step came to.
-pub(super) struct Attempt<T, const NQ: usize, const NV: usize> {
-    /// The state at its end.
-    pub(super) state: State<T, NQ, NV>,
+pub(super) struct Attempt<F: Flow> {
+    /// Where it ends.
+    pub(super) q: F::Position,
+    pub(super) v: F::Velocity,
     /// The acceleration there, with which the next step begins.
-    pub(super) acceleration: SVector<T, NV>,
+    pub(super) acceleration: F::Velocity,
     /// The states on the way.
-    pub(super) segment: Segment<T, NQ, NV>,
+    pub(super) piece: Piece<F::Scalar, F::Position, F::Velocity>,
     /// Its error in units of the tolerances.
-    pub(super) error: T,
+    pub(super) error: F::Scalar,
+}
+
+impl<F: Flow> Attempt<F> {
+    /// `Ok` if it came to something finite.
+    pub(super) fn check(&self) -> Result<(), Error> {
+        Error::unless_all_finite("a", self.acceleration.entries())?;
+        Error::unless_all_finite("q", self.q.entries())?;
+        Error::unless_all_finite("v", self.v.entries())
+    }
 }
 
 /// Where a step begins, and how it goes on from there.
-pub(super) struct Start<'a, T, const NQ: usize, const NV: usize> {
-    pub(super) state: &'a State<T, NQ, NV>,
-    pub(super) acceleration: SVector<T, NV>,
+pub(super) struct Start<'a, F: Flow> {
+    pub(super) q: &'a F::Position,
+    pub(super) v: &'a F::Velocity,
+    pub(super) acceleration: &'a F::Velocity,
     /// The times of its start and end, in s.
-    pub(super) times: [T; 2],
-    pub(super) step: T,
+    pub(super) times: [F::Scalar; 2],
+    pub(super) step: F::Scalar,
 }
 
 /// Goes one step.
@@ -66,64 +77,57 @@ pub(super) struct Start<'a, T, const NQ: usize, const NV: usize> {
 /// # Source
 ///
 /// E. Hairer, S. Nørsett, G. Wanner, *Solving Ordinary Differential Equations I*, Springer 1993, §II.5 and II.6.
-pub(super) fn attempt<R, T, const NQ: usize, const NV: usize>(
-    robot: &R,
-    start: &Start<'_, T, NQ, NV>,
-    tolerances: &Tolerances<T>,
-    mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-) -> Attempt<T, NQ, NV>
+pub(super) fn attempt<F>(flow: &mut F, start: &Start<'_, F>, tolerances: &Tolerances<F::Scalar>) -> Attempt<F>
 where
-    R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
-    T: Scalar + PartialOrd,
+    F: Flow<Scalar: PartialOrd>,
 {
-    let Start { state: State { q, v }, acceleration, times: [now, end], step } = *start;
-    let mut rates = [*v; 7];
-    let mut accelerations = [acceleration; 7];
-    let (mut way, mut last) = (SVector::zeros(), *start.state);
+    let Start { q, v, acceleration, times: [now, end], step } = *start;
+    let mut rates: [F::Velocity; 7] = core::array::from_fn(|_| v.clone());
+    let mut accelerations: [F::Velocity; 7] = core::array::from_fn(|_| acceleration.clone());
+    let zero = v.times(F::Scalar::zero());
+    let (mut way, mut last) = (zero.clone(), (q.clone(), v.clone()));
     for (k, (weights, time)) in STAGES.iter().zip(TIMES).enumerate().skip(1) {
-        way = weighted(weights, &rates) * step;
-        last = State { q: robot.integrate(q, &way), v: v + weighted(weights, &accelerations) * step };
-        let tau = input(step.mul_add(T::of(time), now), &last);
+        way = weighted(weights, &rates).times(step);
+        last = (flow.integrate(q, &way), v.clone().plus(step, &weighted(weights, &accelerations)));
         if let (Some(rate), Some(acceleration)) = (rates.get_mut(k), accelerations.get_mut(k)) {
-            *rate = robot.rate(&way, &last.v);
-            *acceleration = robot.forward_dynamics(&last.q, &last.v, &tau);
+            *rate = flow.rate(&way, &last.1);
+            let time = step.mul_add(F::Scalar::of(time), now);
+            *acceleration = flow.acceleration(time, &last.0, &last.1);
         }
     }
-    let errors = [&rates, &accelerations].map(|slopes| weighted(&ERROR, slopes) * step);
-    let [of_way, of_speed] = &errors;
-    let zero = SVector::zeros();
-    let error = tolerances
-        .norm([Part { x: of_way, sizes: [&zero, &way] }, Part { x: of_speed, sizes: [v, &last.v] }]);
-    let segment = Segment {
+    let [of_way, of_speed] = [&rates, &accelerations].map(|slopes| weighted(&ERROR, slopes).times(step));
+    let error = tolerances.norm([
+        Part { x: of_way.entries(), sizes: [zero.entries(), way.entries()] },
+        Part { x: of_speed.entries(), sizes: [v.entries(), last.1.entries()] },
+    ]);
+    let piece = Piece {
         start: now,
         end,
-        q: *q,
+        q: q.clone(),
         delta: extension([zero, way], &rates, step),
-        v: extension([*v, last.v], &accelerations, step),
+        v: extension([v.clone(), last.1.clone()], &accelerations, step),
     };
-    Attempt { state: last, acceleration: accelerations[6], segment, error }
+    let [.., acceleration] = accelerations;
+    Attempt { q: last.0, v: last.1, acceleration, piece, error }
 }
 
 /// The continuous extension between two values.
-fn extension<T: Scalar, const N: usize>(
-    ends: [SVector<T, N>; 2],
-    slopes: &[SVector<T, N>; 7],
-    step: T,
-) -> Quartic<T, N> {
-    let way = ends[1] - ends[0];
-    let bow = slopes[0] * step - way;
-    Quartic { ends, bows: [bow, way - slopes[6] * step - bow, weighted(&DENSE, slopes) * step] }
+fn extension<T: Scalar, V: Vector<T>>(ends: [V; 2], slopes: &[V; 7], step: T) -> Quartic<V> {
+    let ([from, to], [first, .., last]) = (&ends, slopes);
+    let way = to.clone().plus(-T::one(), from);
+    let bow = first.times(step).plus(-T::one(), &way);
+    let second = way.plus(-step, last).plus(-T::one(), &bow);
+    Quartic { bows: [bow, second, weighted(&DENSE, slopes).times(step)], ends }
 }
 
 /// The sum of vectors, each times its weight.
-fn weighted<T: Scalar, const N: usize>(weights: &[f64], vectors: &[SVector<T, N>; 7]) -> SVector<T, N> {
-    let mut sum = SVector::zeros();
-    for (weight, vector) in weights.iter().zip(vectors) {
-        if *weight != 0.0 {
-            sum += vector * T::of(*weight);
-        }
-    }
-    sum
+fn weighted<T: Scalar, V: Vector<T>>(weights: &[f64], vectors: &[V; 7]) -> V {
+    let mut terms = weights.iter().zip(vectors);
+    let [first, ..] = vectors;
+    let sum = terms.next().map_or_else(|| first.clone(), |(weight, first)| first.times(T::of(*weight)));
+    terms
+        .filter(|(weight, _)| **weight != 0.0)
+        .fold(sum, |sum, (weight, vector)| sum.plus(T::of(*weight), vector))
 }
 
 #[cfg(test)]

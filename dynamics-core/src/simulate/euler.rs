@@ -1,12 +1,7 @@
 //! The semi-implicit Euler method.
 
-use nalgebra::SVector;
-
-use super::{Explicit, Integrator};
-use crate::dynamics::Dynamics;
-use crate::error::Error;
-use crate::scalar::Scalar;
-use crate::state::{Configuration, State};
+use super::flow::{Flow, Vector};
+use super::{Explicit, Method};
 
 /// `v₁ = v + h·a(q, v)`, `q₁ = q ⊕ h·v₁`: order 1, one evaluation of the dynamics.
 ///
@@ -15,26 +10,21 @@ use crate::state::{Configuration, State};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SemiImplicitEuler;
 
-impl Explicit for SemiImplicitEuler {}
-
-impl Integrator for SemiImplicitEuler {
+impl Method for SemiImplicitEuler {
     const ORDER: u32 = 1;
+}
 
+impl Explicit for SemiImplicitEuler {
     #[inline]
-    fn step<R, T, const NQ: usize, const NV: usize>(
+    fn follow<F: Flow>(
         &self,
-        robot: &R,
-        time: T,
-        state: &State<T, NQ, NV>,
-        step: T,
-        mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-    ) -> Result<State<T, NQ, NV>, Error>
-    where
-        R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
-        T: Scalar,
-    {
-        let tau = input(time, state);
-        let v = state.v + robot.forward_dynamics(&state.q, &state.v, &tau) * step;
-        Ok(State { q: robot.integrate(&state.q, &(v * step)), v })
+        flow: &mut F,
+        time: F::Scalar,
+        (q, v): (&F::Position, &F::Velocity),
+        step: F::Scalar,
+    ) -> (F::Position, F::Velocity) {
+        let a = flow.acceleration(time, q, v);
+        let v = v.clone().plus(step, &a);
+        (flow.integrate(q, &v.times(step)), v)
     }
 }

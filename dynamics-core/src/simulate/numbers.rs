@@ -23,7 +23,7 @@ pub(super) fn is_at_most<T: Scalar>(a: T, b: T) -> bool {
 }
 
 /// The distance from 1 to the next number, by what thirds lose (M. Malcolm 1972).
-pub(super) fn rounding<T: Scalar>() -> T {
+pub(crate) fn rounding<T: Scalar>() -> T {
     let third = T::of(4.0) / T::of(3.0) - T::one();
     let lost = third + third + third - T::one();
     (lost * lost).sqrt()

@@ -1,12 +1,8 @@
 //! The classical Runge–Kutta method of order 4, in a form that also holds on a manifold.
 
-use nalgebra::SVector;
-
-use super::{Explicit, Integrator};
-use crate::dynamics::Dynamics;
-use crate::error::Error;
+use super::flow::{Flow, Vector};
+use super::{Explicit, Method};
 use crate::scalar::Scalar;
-use crate::state::{Configuration, State};
 
 /// The classical Runge–Kutta method: order 4, four evaluations of the dynamics.
 ///
@@ -20,49 +16,41 @@ use crate::state::{Configuration, State};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Rk4;
 
-impl Explicit for Rk4 {}
-
-impl Integrator for Rk4 {
+impl Method for Rk4 {
     const ORDER: u32 = 4;
+}
 
+impl Explicit for Rk4 {
     #[inline]
-    fn step<R, T, const NQ: usize, const NV: usize>(
+    fn follow<F: Flow>(
         &self,
-        robot: &R,
-        time: T,
-        state: &State<T, NQ, NV>,
-        step: T,
-        mut input: impl FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
-    ) -> Result<State<T, NQ, NV>, Error>
-    where
-        R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV>,
-        T: Scalar,
-    {
-        let mut acceleration = |time: T, stage: &State<T, NQ, NV>| {
-            let tau = input(time, stage);
-            robot.forward_dynamics(&stage.q, &stage.v, &tau)
-        };
-        let half = step * T::of(0.5);
-        let State { q, v: v1 } = *state;
+        flow: &mut F,
+        time: F::Scalar,
+        (q, v1): (&F::Position, &F::Velocity),
+        step: F::Scalar,
+    ) -> (F::Position, F::Velocity) {
+        let part = |of_step: f64| step * F::Scalar::of(of_step);
+        let (half, end) = (part(0.5), time + step);
 
-        let a1 = acceleration(time, state);
-        let v2 = v1 + a1 * half;
-        let q2 = robot.integrate(&q, &(v1 * half));
-        let a2 = acceleration(time + half, &State { q: q2, v: v2 });
-        let v3 = v1 + a2 * half;
-        let q3 = robot.integrate(&q, &(v2 * half));
-        let a3 = acceleration(time + half, &State { q: q3, v: v3 });
-        let v4 = v1 + a3 * step;
-        let q4 = robot.integrate(&q2, &(v3 * step - v1 * half));
-        let a4 = acceleration(time + step, &State { q: q4, v: v4 });
+        let a1 = flow.acceleration(time, q, v1);
+        let v2 = v1.clone().plus(half, &a1);
+        let q2 = flow.integrate(q, &v1.times(half));
+        let a2 = flow.acceleration(time + half, &q2, &v2);
+        let v3 = v1.clone().plus(half, &a2);
+        let q3 = flow.integrate(q, &v2.times(half));
+        let a3 = flow.acceleration(time + half, &q3, &v3);
+        let v4 = v1.clone().plus(step, &a3);
+        let q4 = flow.integrate(&q2, &v3.times(step).plus(-half, v1));
+        let a4 = flow.acceleration(end, &q4, &v4);
 
-        let twelfth = step * T::of(1.0 / 12.0);
-        let middle = (v2 + v3) * T::of(2.0);
-        let first = (v1 * T::of(3.0) + middle - v4) * twelfth;
-        let second = (v4 * T::of(3.0) + middle - v1) * twelfth;
-        Ok(State {
-            q: robot.integrate(&robot.integrate(&q, &first), &second),
-            v: v1 + (a1 + (a2 + a3) * T::of(2.0) + a4) * (step * T::of(1.0 / 6.0)),
-        })
+        let [one, two, three] = [1.0 / 12.0, 1.0 / 6.0, 0.25].map(part);
+        let middle = v2.times(two).plus(two, &v3);
+        let first = middle.clone().plus(three, v1).plus(-one, &v4);
+        let second = middle.plus(three, &v4).plus(-one, v1);
+        let (sixth, third) = (part(1.0 / 6.0), part(1.0 / 3.0));
+        (
+            flow.integrate(&flow.integrate(q, &first), &second),
+            v1.clone().plus(sixth, &a1).plus(third, &a2).plus(third, &a3).plus(sixth, &a4),
+        )
     }
 }

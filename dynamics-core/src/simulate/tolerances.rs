@@ -1,7 +1,5 @@
 //! How exact an adaptive step must be.
 
-use nalgebra::SVector;
-
 use super::numbers::{larger, magnitude};
 use crate::error::Error;
 use crate::scalar::Scalar;
@@ -37,7 +35,7 @@ impl<T: Scalar + PartialOrd> Tolerances<T> {
     }
 
     /// The root of the mean square of `x` in units of what the sizes allow; infinite where that is zero and `x` not.
-    pub(super) fn norm<const N: usize, const K: usize>(&self, parts: [Part<'_, T, N>; K]) -> T {
+    pub(super) fn norm<const K: usize>(&self, parts: [Part<'_, T>; K]) -> T {
         let (mut sum, mut count) = (T::zero(), T::zero());
         for Part { x, sizes: [from, to] } in parts {
             for ((x, from), to) in x.iter().zip(from).zip(to) {
@@ -54,7 +52,7 @@ impl<T: Scalar + PartialOrd> Tolerances<T> {
 }
 
 /// Some coordinates, and their values before and after the step.
-pub(super) struct Part<'a, T, const N: usize> {
-    pub(super) x: &'a SVector<T, N>,
-    pub(super) sizes: [&'a SVector<T, N>; 2],
+pub(super) struct Part<'a, T> {
+    pub(super) x: &'a [T],
+    pub(super) sizes: [&'a [T]; 2],
 }

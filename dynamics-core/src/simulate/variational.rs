@@ -2,8 +2,8 @@
 
 use nalgebra::SVector;
 
-use super::Integrator;
 use super::numbers::{is_at_most, rounding};
+use super::{Integrator, Method};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
 use crate::product::{dot, product, transposed_product};
@@ -42,9 +42,11 @@ pub struct Variational;
 /// Each iteration must shorten the error to half its length, which leaves the last bit of an `f64`.
 const MOST_ITERATIONS: usize = 50;
 
-impl Integrator for Variational {
+impl Method for Variational {
     const ORDER: u32 = 2;
+}
 
+impl Integrator for Variational {
     #[inline]
     fn step<R, T, const NQ: usize, const NV: usize>(
         &self,
