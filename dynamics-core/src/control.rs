@@ -4,8 +4,9 @@
 //! |---|---|
 //! | [`ComputedTorque`] | `τ = ID(q, v, a_d + K_d·ė + K_p·e)`: each joint a linear oscillator |
 //! | [`GravityCompensation`] | `τ = G + K_p·e + K_d·ė`: regulation without a model of the inertia |
-//! | [`StateFeedback`] | `u = u₀ − K·x`: gains of a linear model, about its point |
+//! | [`StateFeedback`] | `u = u₀ − K·x`, `τ = B_u·u`: gains of a linear model, about its point |
 //! | [`SlotineLi`] | `τ = Y·π̂ + K·s`: tracks while it adapts the inertial parameters |
+//! | [`within_half_a_turn`] | an angle without its whole turns |
 //! | [`saturated`] | joint forces within the limits of the robot |
 //! | [`FilteredDerivative`] | speeds from measured positions |
 //!
@@ -22,6 +23,7 @@ mod gravity_compensation;
 mod saturation;
 mod slotine_li;
 mod state_feedback;
+mod turns;
 
 pub use computed_torque::{ComputedTorque, Integral};
 pub use filtered_derivative::FilteredDerivative;
@@ -29,6 +31,7 @@ pub use gravity_compensation::GravityCompensation;
 pub use saturation::saturated;
 pub use slotine_li::{AllParameters, BaseParameters, Parameters, SlotineLi, Tracking, slotine_li_regressor};
 pub use state_feedback::StateFeedback;
+pub use turns::within_half_a_turn;
 
 use nalgebra::SVector;
 
@@ -72,6 +75,14 @@ impl<T: Scalar, const NQ: usize, const NV: usize> Reference<T, NQ, NV> {
     {
         (robot.difference(&state.q, &self.q), self.v - state.v)
     }
+}
+
+/// `K_p·e + K_d·ė`
+fn pulled<T: Scalar, const N: usize>(
+    [proportional, derivative]: [&SVector<T, N>; 2],
+    (error, rate): &(SVector<T, N>, SVector<T, N>),
+) -> SVector<T, N> {
+    scaled(derivative, rate) + scaled(proportional, error)
 }
 
 /// `x` entry by entry times `gains`.

@@ -37,6 +37,10 @@ pub trait Mechanism {
     const PARAMETER_NAMES: &'static [&'static str] = &[];
     /// The base parameters `π_b`, in their order in [`BaseRegressor`](crate::BaseRegressor); empty without one.
     const BASE_PARAMETER_NAMES: &'static [&'static str] = &[];
+    /// The number of inertial parameters, the length of `π`; zero without a [`Regressor`](crate::Regressor).
+    const NP: usize = Self::PARAMETER_NAMES.len();
+    /// The number of base parameters, the length of `π_b`; zero without a [`BaseRegressor`](crate::BaseRegressor).
+    const NB: usize = Self::BASE_PARAMETER_NAMES.len();
     /// The operations each method takes; on a robot with parameters, after `prepare`. Of a method so long that it
     /// recurses over a table of links, an estimate, as its documentation says; all others are counted.
     const COST: Costs;

@@ -275,16 +275,36 @@ fn state_feedback_is_in_the_tangent_space() {
     let robot = leaper::<f64>();
     let mut random = random_numbers(5);
     let q = robot.integrate(&robot.neutral(), &random_vector(&mut random, 1.0));
-    let feedback = StateFeedback {
-        state: State::new(q, random_vector(&mut random, 1.0)),
-        u: random_vector(&mut random, 3.0),
-        gain: SMatrix::<f64, NU, NX>::from_fn(|_, _| random()),
-    };
+    let state = State::new(q, random_vector(&mut random, 1.0));
+    let u = random_vector(&mut random, 3.0);
+    let feedback = StateFeedback::new(state, u, SMatrix::<f64, NU, NX>::from_fn(|_, _| random()));
     let (delta, speed) = (random_vector::<NV>(&mut random, 0.5), random_vector::<NV>(&mut random, 0.5));
     let state = State::new(robot.integrate(&q, &delta), feedback.state.v + speed);
     let x = SVector::<f64, NX>::from_fn(|i, _| if i < NV { delta[i] } else { speed[i - NV] });
     assert!((feedback.deviation(&robot, &state) - x).amax() < 1e-13);
-    assert!((feedback.input(&robot, &state) - (feedback.u - feedback.gain * x)).amax() < 1e-12);
+    let u = feedback.u - feedback.gain * x;
+    assert!((feedback.input(&robot, &state) - u).amax() < 1e-12);
+    // Its motors are those of the last joints.
+    let tau = feedback.torque(&robot, &state);
+    for (speed, tau) in tau.iter().enumerate() {
+        let motor = Leaper::<f64>::ACTUATED.iter().position(|actuated| *actuated == speed);
+        let expected = motor.map_or(0.0, |motor| u[motor]);
+        assert!((tau - expected).abs() < 1e-12, "{speed}: {tau} is not {expected}");
+    }
+}
+
+/// A turn is a turn where it is asked for, and an angle where not.
+#[test]
+fn state_feedback_takes_whole_turns_out_where_it_is_told_to() {
+    let robot = Arm { load: 1.0 };
+    let gain = SMatrix::<f64, 3, 6>::from_fn(|i, j| if i == j { 1.0 } else { 0.0 });
+    let at = State::rest(SVector::from([0.1, 0.2, 0.3]));
+    let turned = State::rest(at.q + SVector::from([2.0, -3.0, 1.0]) * core::f64::consts::TAU);
+    let counting = StateFeedback::new(at, SVector::zeros(), gain);
+    assert_eq!(counting.input(&robot, &turned), at.q - turned.q);
+    let left = counting.wrapping([true, false, true]).input(&robot, &turned);
+    assert!(left[0].abs() < 1e-14 && left[2].abs() < 1e-14, "{left}");
+    assert_eq!(left[1], at.q[1] - turned.q[1]);
 }
 
 #[test]

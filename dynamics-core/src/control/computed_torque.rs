@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::{Reference, scaled};
+use super::{Reference, pulled, scaled};
 use crate::dynamics::Dynamics;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
@@ -80,9 +80,9 @@ impl<T: Scalar, const NV: usize> ComputedTorque<T, NV> {
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV> + ?Sized,
         T: PartialOrd,
     {
-        let (error, _) = reference.errors(robot, state);
-        integral.add(&error, step);
-        let a = self.acceleration(robot, state, reference) + scaled(&integral.gain, &integral.sum);
+        let errors = reference.errors(robot, state);
+        integral.add(&errors.0, step);
+        let a = reference.a + pulled(self.gains(), &errors) + scaled(&integral.gain, &integral.sum);
         robot.inverse_dynamics(&state.q, &state.v, &a)
     }
 
@@ -97,8 +97,11 @@ impl<T: Scalar, const NV: usize> ComputedTorque<T, NV> {
     where
         R: Configuration<T, NQ, NV> + ?Sized,
     {
-        let (error, rate) = reference.errors(robot, state);
-        reference.a + scaled(&self.derivative, &rate) + scaled(&self.proportional, &error)
+        reference.a + pulled(self.gains(), &reference.errors(robot, state))
+    }
+
+    fn gains(&self) -> [&SVector<T, NV>; 2] {
+        [&self.proportional, &self.derivative]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::SVector;
 
-use super::{Reference, scaled};
+use super::{Reference, pulled};
 use crate::dynamics::Dynamics;
 use crate::scalar::Scalar;
 use crate::state::{Configuration, State};
@@ -42,10 +42,8 @@ impl<T: Scalar, const NV: usize> GravityCompensation<T, NV> {
     where
         R: Dynamics<T, NQ, NV> + Configuration<T, NQ, NV> + ?Sized,
     {
-        let (error, rate) = reference.errors(robot, state);
         robot.gravity_forces(&state.q)
             + robot.passive_forces(&state.q, &reference.v)
-            + scaled(&self.proportional, &error)
-            + scaled(&self.derivative, &rate)
+            + pulled([&self.proportional, &self.derivative], &reference.errors(robot, state))
     }
 }

@@ -19,7 +19,9 @@ use crate::state::State;
 /// `−sᵀ·K·s`, or by less with damping and friction: it never increases, since `Ṁ = C + Cᵀ`. So `s` goes to zero, and the
 /// error behind it; the parameters need not become the true ones, unless the motion tells all of them apart.
 ///
-/// `P` says which parameters: [`AllParameters`], or [`BaseParameters`], which are fewer. It remembers `π̂`.
+/// `P` says which parameters: [`AllParameters`], or [`BaseParameters`], which are fewer. It remembers `π̂`. How many there
+/// are, `NP`, the vector of parameters knows; where it has to be written, the robot has it as the constants
+/// [`NP`](crate::Mechanism::NP) and [`NB`](crate::Mechanism::NB).
 ///
 /// # Source
 ///
@@ -27,23 +29,43 @@ use crate::state::State;
 ///
 /// # Example
 ///
-/// ```
-/// use dynamics_core::control::{AllParameters, Reference, SlotineLi};
-/// # use dynamics_core::prelude::*;
-/// # fn cycle<R>(robot: &R, measured: &State<f64, 2, 2>, desired: &Reference<f64, 2, 2>) -> SVector<f64, 2>
-/// # where R: Regressor<f64, 2, 2, 26> + StateSpaceModel<f64, 2, 2, 4, 2> {
-/// // The robot as it is thought to be; its payload is not known.
+#[cfg_attr(feature = "derive", doc = "```")]
+#[cfg_attr(not(feature = "derive"), doc = "```ignore")]
+/// use dynamics_core::control::{BaseParameters, SlotineLi};
+/// use dynamics_core::prelude::*;
+///
+/// #[derive(Dynamics)]
+/// #[joint(shoulder: revolute(y), world -> upper)]
+/// #[body(upper, solid = rod(2, 0.5, z), com = [0, 0, 0.25])]
+/// #[joint(elbow: revolute(y), upper -> lower, at = [0, 0, 0.5])]
+/// #[body(lower, solid = rod(1, 0.4, z), com = [0, 0, 0.2])]
+/// #[joint(grip: fixed, lower -> load, at = [0, 0, 0.4])]
+/// #[body(load, solid = point(payload))]
+/// struct Arm<T> { payload: T }
+///
+/// let (real, thought) = (Arm { payload: 1.0 }, Arm { payload: 0.0 }); // it does not know its load
 /// let mut controller = SlotineLi {
 ///     bandwidth: SVector::repeat(5.0),
 ///     damping: SVector::repeat(20.0),
-///     adaptation: SVector::repeat(0.5),
-///     parameters: robot.inertial_parameters(),
-///     family: AllParameters,
+///     adaptation: SVector::repeat(2.0),
+///     parameters: thought.base_parameters(),
+///     family: BaseParameters,
 /// };
-/// let tracking = controller.track::<_, 2, 4, 2>(robot, measured, desired);
-/// controller.adapt(&tracking, 1e-3);
-/// tracking.tau
-/// # }
+/// let mut simulation = Simulation::new(&real, State::rest(SVector::from([0.1, 0.2])), 1e-3)?;
+/// let desired = Reference::rest(SVector::from([0.4, -0.3]));
+/// for _ in 0..10_000 {
+///     let tracking = controller.track(&thought, simulation.state(), &desired);
+///     controller.adapt(&tracking, 1e-3);
+///     simulation.step_with(&tracking.tau)?;
+/// }
+/// assert!((simulation.state().q - desired.q).amax() < 1e-3);
+///
+/// // A function that is handed the controller names its size.
+/// fn learnt(controller: &SlotineLi<f64, 2, { Arm::<f64>::NB }, BaseParameters>) -> f64 {
+///     controller.parameters.amax()
+/// }
+/// # let _ = learnt(&controller);
+/// # Ok::<(), Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SlotineLi<T, const NV: usize, const NP: usize, P = AllParameters> {
@@ -85,37 +107,27 @@ pub trait Parameters<R: ?Sized, T: Scalar, const NQ: usize, const NV: usize, con
     -> SMatrix<T, NV, NP>;
 }
 
-impl<R, T: Scalar, const NQ: usize, const NV: usize, const NP: usize> Parameters<R, T, NQ, NV, NP>
-    for AllParameters
-where
-    R: Regressor<T, NQ, NV, NP> + ?Sized,
-{
-    #[inline]
-    fn regressor(
-        robot: &R,
-        q: &SVector<T, NQ>,
-        v: &SVector<T, NV>,
-        a: &SVector<T, NV>,
-    ) -> SMatrix<T, NV, NP> {
-        robot.regressor(q, v, a)
-    }
+macro_rules! parameters {
+    ($family:ident, $trait:ident, $regressor:ident) => {
+        impl<R, T: Scalar, const NQ: usize, const NV: usize, const NP: usize> Parameters<R, T, NQ, NV, NP>
+            for $family
+        where
+            R: $trait<T, NQ, NV, NP> + ?Sized,
+        {
+            #[inline]
+            fn regressor(
+                robot: &R,
+                q: &SVector<T, NQ>,
+                v: &SVector<T, NV>,
+                a: &SVector<T, NV>,
+            ) -> SMatrix<T, NV, NP> {
+                robot.$regressor(q, v, a)
+            }
+        }
+    };
 }
-
-impl<R, T: Scalar, const NQ: usize, const NV: usize, const NP: usize> Parameters<R, T, NQ, NV, NP>
-    for BaseParameters
-where
-    R: BaseRegressor<T, NQ, NV, NP> + ?Sized,
-{
-    #[inline]
-    fn regressor(
-        robot: &R,
-        q: &SVector<T, NQ>,
-        v: &SVector<T, NV>,
-        a: &SVector<T, NV>,
-    ) -> SMatrix<T, NV, NP> {
-        robot.base_regressor(q, v, a)
-    }
-}
+parameters!(AllParameters, Regressor, regressor);
+parameters!(BaseParameters, BaseRegressor, base_regressor);
 
 /// The regressor of Slotine and Li, `Y·π = M(q)·a_r + C(q,v)·v_r + G(q) +` springs and damping at `v_r`, NV×NP.
 ///
