@@ -170,17 +170,46 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         v: &SVector<T, NV>,
         tau: &SVector<T, NV>,
     ) -> Result<SVector<T, NV>, Error> {
-        Error::unless_finite("q", q)?;
-        Error::unless_finite("v", v)?;
-        Error::unless_finite("tau", tau)?;
-        self.check_configuration(q)?;
+        check_arguments(self, q, v, tau)?;
         let a = self.forward_dynamics(q, v, tau);
-        let not_finite = Error::unless_finite("a", &a);
-        if not_finite.is_err() && Error::unless_finite("h", &self.bias_forces(q, v)).is_ok() {
-            return Err(Error::SingularMassMatrix);
-        }
-        not_finite.map(|()| a)
+        check_acceleration(self, q, v, &a)?;
+        Ok(a)
     }
+}
+
+/// What forward dynamics is asked of.
+fn check_arguments<R, T, const NQ: usize, const NV: usize>(
+    robot: &R,
+    q: &SVector<T, NQ>,
+    v: &SVector<T, NV>,
+    tau: &SVector<T, NV>,
+) -> Result<(), Error>
+where
+    R: Dynamics<T, NQ, NV> + ?Sized,
+    T: Scalar,
+{
+    Error::unless_finite("q", q)?;
+    Error::unless_finite("v", v)?;
+    Error::unless_finite("tau", tau)?;
+    robot.check_configuration(q)
+}
+
+/// What it came to; of what is not finite, why.
+fn check_acceleration<R, T, const NQ: usize, const NV: usize>(
+    robot: &R,
+    q: &SVector<T, NQ>,
+    v: &SVector<T, NV>,
+    a: &SVector<T, NV>,
+) -> Result<(), Error>
+where
+    R: Dynamics<T, NQ, NV> + ?Sized,
+    T: Scalar,
+{
+    let finite = Error::unless_finite("a", a);
+    if finite.is_err() && Error::unless_finite("h", &robot.bias_forces(q, v)).is_ok() {
+        return Err(Error::SingularMassMatrix);
+    }
+    finite
 }
 
 /// The exact first derivatives of the dynamics.
@@ -234,6 +263,24 @@ pub trait DynamicsDerivatives<T: Scalar, const NQ: usize, const NV: usize>: Dyna
         tau: &SVector<T, NV>,
     ) -> (SVector<T, NV>, ForwardDynamicsDerivatives<T, NV>) {
         (self.forward_dynamics(q, v, tau), self.forward_dynamics_derivatives(q, v, tau))
+    }
+
+    /// [`forward_dynamics_with_derivatives`](Self::forward_dynamics_with_derivatives), checked.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`try_forward_dynamics`](Dynamics::try_forward_dynamics), of arguments and of `a`. The derivatives are not
+    /// looked at.
+    fn try_forward_dynamics_with_derivatives(
+        &self,
+        q: &SVector<T, NQ>,
+        v: &SVector<T, NV>,
+        tau: &SVector<T, NV>,
+    ) -> Result<(SVector<T, NV>, ForwardDynamicsDerivatives<T, NV>), Error> {
+        check_arguments(self, q, v, tau)?;
+        let (a, derivatives) = self.forward_dynamics_with_derivatives(q, v, tau);
+        check_acceleration(self, q, v, &a)?;
+        Ok((a, derivatives))
     }
 }
 

@@ -92,8 +92,7 @@ pub trait StateSpaceModel<T: Scalar, const NQ: usize, const NV: usize, const NX:
         Error::unless_finite("u", u)?;
         let input_map = self.input_map();
         let tau = product(&input_map, u);
-        let acceleration = self.try_forward_dynamics(q, v, &tau)?;
-        let derivatives = self.forward_dynamics_derivatives(q, v, &tau);
+        let (acceleration, derivatives) = self.try_forward_dynamics_with_derivatives(q, v, &tau)?;
         let tangent_rate = self.tangent_rate(v);
 
         let mut rows = [Row::zero(); NY];

@@ -1,7 +1,7 @@
 //! Linear models in matrices, with names and units: ẋ = A·x + B·u + drift, y = C·x + D·u + offset.
 
 mod signal;
-mod table;
+pub(crate) mod table;
 
 pub use signal::Signal;
 

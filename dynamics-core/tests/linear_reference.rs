@@ -222,7 +222,7 @@ fn errors_are_values() {
     let error =
         lqr(Time::Continuous, &a, &none, &Weights::diagonal([1.0; 2], [1.0])).expect_err("it cannot be held");
     assert_eq!(error, LinearError::NotStabilizable { pole: (1.0, 0.0) });
-    let message = "the mode of the pole 1.0000e0 does not decay, and no input reaches it; add an input, or leave the mode \
-                   out of the model";
+    let message = "the mode of the pole 1.0000 does not decay, and no input reaches it; add an input, or leave the mode out \
+                   of the model";
     assert_eq!(error.to_string(), message);
 }

@@ -5,6 +5,7 @@ use core::fmt;
 use nalgebra::{Complex, SMatrix};
 
 use super::real::Real;
+use crate::state_space::table::Short;
 
 /// A reason why a linear model has no such discretisation, property, gain or estimate.
 ///
@@ -140,18 +141,27 @@ impl LinearError {
     }
 }
 
-/// A pole as it is written: `-1.5 + 2i`.
+fn short(value: f64) -> Short<f64> {
+    Short { value, digits: 4 }
+}
+
+/// A pole as it is written: `-1.5000 + 2.0000i`.
 struct Pole((f64, f64));
 
 impl fmt::Display for Pole {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let (re, im) = self.0;
-        match im {
-            0.0 => write!(f, "{re:.4e}"),
-            _ if im < 0.0 => write!(f, "{re:.4e} - {:.4e}i", -im),
-            _ => write!(f, "{re:.4e} + {im:.4e}i"),
+        let (re, im) = (short(self.0.0), short(self.0.1.abs()));
+        match self.0.1 {
+            0.0 => re.fmt(f),
+            below if below < 0.0 => write!(f, "{re} - {im}i"),
+            _ => write!(f, "{re} + {im}i"),
         }
     }
+}
+
+/// What is wrong with a mode.
+fn mode(f: &mut fmt::Formatter<'_>, pole: (f64, f64), wrong: &str) -> fmt::Result {
+    write!(f, "the mode of the pole {} {wrong}", Pole(pole))
 }
 
 impl fmt::Display for LinearError {
@@ -164,41 +174,36 @@ impl fmt::Display for LinearError {
             ),
             Self::NotPositiveDefinite { matrix, eigenvalue } => write!(
                 f,
-                "{matrix} has the eigenvalue {eigenvalue:.4e}, and all must be positive; give each of its inputs or \
-                 outputs a weight or a noise"
+                "{matrix} has the eigenvalue {}, and all must be positive; give each of its inputs or outputs a weight \
+                 or a noise",
+                short(eigenvalue)
             ),
             Self::NotPositiveSemidefinite { matrix, eigenvalue } => write!(
                 f,
-                "{matrix} has the eigenvalue {eigenvalue:.4e}, and none may be negative; make it Lᵀ·L, or the cross \
-                 term smaller"
+                "{matrix} has the eigenvalue {}, and none may be negative; make it Lᵀ·L, or the cross term smaller",
+                short(eigenvalue)
             ),
-            Self::NotStabilizable { pole } => write!(
+            Self::NotStabilizable { pole } => mode(
                 f,
-                "the mode of the pole {} does not decay, and no input reaches it; add an input, or leave the mode out \
-                 of the model",
-                Pole(pole)
+                pole,
+                "does not decay, and no input reaches it; add an input, or leave the mode out of the model",
             ),
-            Self::NotDetectable { pole } => write!(
+            Self::NotDetectable { pole } => mode(
                 f,
-                "the mode of the pole {} does not decay, and no output shows it; measure more, or leave the mode out \
-                 of the model",
-                Pole(pole)
+                pole,
+                "does not decay, and no output shows it; measure more, or leave the mode out of the model",
             ),
-            Self::FreeMode { pole } => write!(
+            Self::FreeMode { pole } => {
+                mode(f, pole, "neither grows nor decays, and costs nothing; give it a weight in Q")
+            }
+            Self::QuietMode { pole } => {
+                mode(f, pole, "neither grows nor decays, and no noise excites it; give it some in W")
+            }
+            Self::NotControllable { pole } => mode(
                 f,
-                "the mode of the pole {} neither grows nor decays, and costs nothing; give it a weight in Q",
-                Pole(pole)
-            ),
-            Self::QuietMode { pole } => write!(
-                f,
-                "the mode of the pole {} neither grows nor decays, and no noise excites it; give it some in W",
-                Pole(pole)
-            ),
-            Self::NotControllable { pole } => write!(
-                f,
-                "the mode of the pole {} is not reached by the input, and its pole cannot be moved; choose another \
-                 input, or leave the mode out of the model",
-                Pole(pole)
+                pole,
+                "is not reached by the input, and its pole cannot be moved; choose another input, or leave the mode \
+                 out of the model",
             ),
             Self::NotStable { pole } => write!(
                 f,
@@ -262,16 +267,16 @@ mod tests {
         assert_eq!(message(not_finite), "A[(2, 0)] is not finite");
         assert_eq!(
             message(LinearError::FreeMode { pole: (0.0, -2.0) }),
-            "the mode of the pole 0.0000e0 - 2.0000e0i neither grows nor decays, and costs nothing; give it a weight in Q"
+            "the mode of the pole 0 - 2.0000i neither grows nor decays, and costs nothing; give it a weight in Q"
         );
         assert_eq!(
             message(LinearError::PoleWithoutConjugate { pole: (-1.0, 2.0) }),
-            "the pole -1.0000e0 + 2.0000e0i is desired without -1.0000e0 - 2.0000e0i; give complex poles in conjugate \
+            "the pole -1.0000 + 2.0000i is desired without -1.0000 - 2.0000i; give complex poles in conjugate \
              pairs"
         );
         assert_eq!(
             message(LinearError::NotPositiveDefinite { matrix: "R", eigenvalue: -3.0 }),
-            "R has the eigenvalue -3.0000e0, and all must be positive; give each of its inputs or outputs a weight or a \
+            "R has the eigenvalue -3.0000, and all must be positive; give each of its inputs or outputs a weight or a \
              noise"
         );
         assert_eq!(

@@ -8,7 +8,7 @@ use super::{Signal, StateSpace};
 use crate::scalar::Scalar;
 
 /// What can be printed in a table: `f32`, `f64` and the like.
-trait Number: Scalar + PartialOrd + Display + LowerExp {}
+pub(crate) trait Number: Scalar + PartialOrd + Display + LowerExp {}
 impl<T: Scalar + PartialOrd + Display + LowerExp> Number for T {}
 
 /// A column is at least so wide, with the space before it.
@@ -145,9 +145,9 @@ impl Table {
 }
 
 /// A number by its digits behind the point, or in powers of ten where these would not show it.
-struct Short<T> {
-    value: T,
-    digits: usize,
+pub(crate) struct Short<T> {
+    pub(crate) value: T,
+    pub(crate) digits: usize,
 }
 
 impl<T: Number> Display for Short<T> {

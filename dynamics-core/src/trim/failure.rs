@@ -4,6 +4,7 @@ use core::fmt;
 
 use super::Trimmed;
 use crate::error::Error;
+use crate::scalar::Scalar;
 
 /// Why a search for a [trim](crate::trim) found none, with the best state that it came to.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,7 +29,7 @@ impl<T, const NQ: usize, const NV: usize, const NU: usize> From<TrimFailure<T, N
     }
 }
 
-impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> fmt::Display
+impl<T: Scalar, const NQ: usize, const NV: usize, const NU: usize> fmt::Display
     for TrimFailure<T, NQ, NV, NU>
 {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -44,12 +45,15 @@ impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> fmt::Disp
             }
             Self::Invalid(error) => return error.fmt(f),
         };
-        let ([q], [forces]) = (&best.state.q.data.0, &best.imbalance.data.0);
-        write!(f, " forces {forces:?} are left at q = {q:?}, and the outputs miss by {:?}", best.miss)
+        // No negative zeros.
+        let [q] = best.state.q.data.0.map(|q| q.map(|q| q + T::zero()));
+        let [forces] = best.imbalance.data.0.map(|forces| forces.map(|force| force + T::zero()));
+        write!(f, " forces {forces:?} are left at q = {q:?}")?;
+        if best.miss.is_zero() { Ok(()) } else { write!(f, ", and the outputs miss by {:?}", best.miss) }
     }
 }
 
-impl<T: fmt::Debug, const NQ: usize, const NV: usize, const NU: usize> core::error::Error
+impl<T: Scalar, const NQ: usize, const NV: usize, const NU: usize> core::error::Error
     for TrimFailure<T, NQ, NV, NU>
 {
 }
