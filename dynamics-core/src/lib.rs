@@ -34,15 +34,19 @@
 //! | | |
 //! |---|---|
 //! | `derive` (default) | the derive macro `Dynamics` |
-//! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like. [Recorded motions](simulate::Trajectory), which have a heap |
+//! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like. [Recorded motions][Trajectory], which have a heap |
 //! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
-//! | `simd` | [lanes]: `f64x4`, `f64x8`, `f32x8`, `f32x16` as scalars; [batches](batch) of states from slices |
+//! | `simd` | [lanes]: `f64x4`, `f64x8`, `f32x8`, `f32x16` as scalars; [batches][batch] of states from slices |
 //! | `rayon` | batches over all cores; implies `simd` and `std`, has a heap, and panics if threads cannot be started |
 //! | `serde` | `Serialize` for states, poses, equations, derivatives, linear models, energies, costs, limits and errors, and `Deserialize` for all but errors; matrices as nalgebra writes them, by columns |
 //! | `defmt` | `Format` for the same types, for the log of a microcontroller |
 //!
 //! Any set of them works together. On a target without an operating system `std` and `rayon` are refused; there
 //! `default-features = false, features = ["derive"]` is all that is needed.
+//!
+#![cfg_attr(feature = "std", doc = "[Trajectory]: simulate::Trajectory")]
+#![cfg_attr(not(feature = "std"), doc = "[Trajectory]: #features")]
+#![cfg_attr(not(feature = "simd"), doc = "[lanes]: #features\n[batch]: #features")]
 #![no_std]
 #![forbid(unsafe_code)]
 #![cfg_attr(docsrs, feature(doc_cfg))]
