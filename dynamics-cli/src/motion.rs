@@ -1,64 +1,175 @@
-//! How a robot moves on from a state: the run time's way, for robots whose size is not known to Rust.
+//! How a robot moves on from a state: the run time's own methods, along robots whose size is not known to Rust.
 
 use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::model::{Motion, Tree};
-use dynamics_core::__private::{integrate_ball, integrate_free};
+use dynamics_core::__private::{ball_rate, free_rate, integrate_ball, integrate_free};
+use dynamics_core::Scalar;
+use dynamics_core::simulate::{Explicit, Flow, March, Rk4, SemiImplicitEuler, Tolerances};
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Problem};
 use crate::robot::{Robot, State};
 
-/// `q ⊕ δ`, as `Configuration::integrate`: where `q` gets to under the constant velocity `δ` in one unit of time.
-fn integrate(tree: &Tree<f64>, q: &[f64], delta: &[f64]) -> Vec<f64> {
-    let mut moved = q.to_vec();
-    for link in &tree.links {
-        let (at, from) = (link.drive.q, link.drive.v);
-        match link.motion {
-            // Several links may share a coordinate.
-            Motion::Revolute | Motion::Prismatic => moved[at] = q[at] + delta[from],
-            Motion::Ball => {
-                let ball = integrate_ball(part::<4>(q, at), part::<3>(delta, from));
-                moved[at..at + 4].copy_from_slice(&ball);
-            }
-            Motion::Free => {
-                let free = integrate_free(part::<7>(q, at), part::<6>(delta, from));
-                moved[at..at + 7].copy_from_slice(&free);
-            }
-        }
-    }
-    moved
+/// How a step of a given size is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum FixedStep {
+    /// The classical method of Runge and Kutta, of order 4
+    Rk4,
+    /// The semi-implicit method of Euler, of order 1
+    Euler,
 }
 
-fn part<const N: usize>(x: &[f64], from: usize) -> [f64; N] {
+impl FixedStep {
+    /// Goes one step along a flow.
+    pub(crate) fn follow<F: Flow>(
+        self,
+        flow: &mut F,
+        time: F::Scalar,
+        from: (&F::Position, &F::Velocity),
+        step: F::Scalar,
+    ) -> (F::Position, F::Velocity) {
+        match self {
+            Self::Rk4 => Rk4.follow(flow, time, from, step),
+            Self::Euler => SemiImplicitEuler.follow(flow, time, from, step),
+        }
+    }
+}
+
+/// How the links of a robot move, and the first of the coordinates and of the speeds of each.
+#[derive(Clone)]
+pub(crate) struct Links(Vec<(Motion, usize, usize)>);
+
+impl Links {
+    /// Those of a tree.
+    pub(crate) fn of(tree: &Tree<f64>) -> Self {
+        Self(tree.links.iter().map(|link| (link.motion, link.drive.q, link.drive.v)).collect())
+    }
+
+    /// `q ⊕ δ`, as `Configuration::integrate`.
+    pub(crate) fn integrate<T: Scalar>(&self, q: &[T], delta: &[T]) -> Vec<T> {
+        let mut moved = q.to_vec();
+        for &(motion, at, from) in &self.0 {
+            match motion {
+                // Several links may share a coordinate.
+                Motion::Revolute | Motion::Prismatic => moved[at] = q[at] + delta[from],
+                Motion::Ball => {
+                    let ball = integrate_ball(part::<T, 4>(q, at), part::<T, 3>(delta, from));
+                    moved[at..at + 4].copy_from_slice(&ball);
+                }
+                Motion::Free => {
+                    let free = integrate_free(part::<T, 7>(q, at), part::<T, 6>(delta, from));
+                    moved[at..at + 7].copy_from_slice(&free);
+                }
+            }
+        }
+        moved
+    }
+
+    /// `δ̇` where `q ⊕ δ` moves with the velocity `v`, as `Configuration::rate`.
+    pub(crate) fn rate<T: Scalar>(&self, delta: &[T], v: &[T]) -> Vec<T> {
+        let mut rate = v.to_vec();
+        for &(motion, _, from) in &self.0 {
+            match motion {
+                Motion::Revolute | Motion::Prismatic => {}
+                Motion::Ball => {
+                    let ball = ball_rate(part::<T, 3>(delta, from), part::<T, 3>(v, from));
+                    rate[from..from + 3].copy_from_slice(&ball);
+                }
+                Motion::Free => {
+                    let free = free_rate(part::<T, 6>(delta, from), part::<T, 6>(v, from));
+                    rate[from..from + 6].copy_from_slice(&free);
+                }
+            }
+        }
+        rate
+    }
+}
+
+fn part<T: Scalar, const N: usize>(x: &[T], from: usize) -> [T; N] {
     std::array::from_fn(|k| x[from + k])
 }
 
-/// The state after a step `h`, in s, by `dynamics_core`'s `Rk4`: the classical method of Runge and Kutta, with two `⊕`
-/// where on a manifold one would lose order (Celledoni, Marthinsen, Owren 2003).
-pub(crate) fn stepped(robot: &Robot<'_>, state: &State, h: f64) -> Result<State, Failure> {
-    let along = |q: &[f64], delta: &[f64]| integrate(&robot.tree, q, delta);
-    let at = |q: Vec<f64>, v: &[f64]| State { q, v: v.to_vec(), ..state.clone() };
-    let acceleration = |state: &State| robot.evaluate(Method::ForwardDynamics, state);
-    let State { q, v: v1, .. } = state;
-
-    let a1 = acceleration(state)?;
-    let v2 = sum(&[(1.0, v1), (0.5 * h, &a1)]);
-    let q2 = along(q, &sum(&[(0.5 * h, v1)]));
-    let a2 = acceleration(&at(q2.clone(), &v2))?;
-    let v3 = sum(&[(1.0, v1), (0.5 * h, &a2)]);
-    let a3 = acceleration(&at(along(q, &sum(&[(0.5 * h, &v2)])), &v3))?;
-    let v4 = sum(&[(1.0, v1), (h, &a3)]);
-    let a4 = acceleration(&at(along(&q2, &sum(&[(h, &v3), (-0.5 * h, v1)])), &v4))?;
-
-    let [one, two, three] = [1.0, 2.0, 3.0].map(|k| k * h / 12.0);
-    let first = sum(&[(three, v1), (two, &v2), (two, &v3), (-one, &v4)]);
-    let second = sum(&[(three, &v4), (two, &v2), (two, &v3), (-one, v1)]);
-    let q = along(&along(q, &first), &second);
-    let [one, two] = [h / 6.0, h / 3.0];
-    Ok(at(q, &sum(&[(1.0, v1), (one, &a1), (two, &a2), (two, &a3), (one, &a4)])))
+/// A robot that nothing drives.
+struct Unforced<'r, 'g> {
+    robot: &'r Robot<'g>,
+    links: Links,
 }
 
-/// The sum of vectors, each times its factor.
-fn sum(terms: &[(f64, &Vec<f64>)]) -> Vec<f64> {
-    let length = terms.first().map_or(0, |(_, x)| x.len());
-    (0..length).map(|k| terms.iter().map(|(factor, x)| factor * x[k]).sum()).collect()
+impl Flow for Unforced<'_, '_> {
+    type Scalar = f64;
+    type Position = Vec<f64>;
+    type Velocity = Vec<f64>;
+
+    fn integrate(&self, q: &Vec<f64>, delta: &Vec<f64>) -> Vec<f64> {
+        self.links.integrate(q, delta)
+    }
+
+    fn rate(&self, delta: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        self.links.rate(delta, v)
+    }
+
+    fn acceleration(&mut self, _time: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
+        let zeros = vec![0.0; v.len()];
+        let state = State { q: q.clone(), v: v.clone(), a: zeros.clone(), tau: zeros };
+        // Why there is none is asked where a step began.
+        self.robot.evaluate(Method::ForwardDynamics, &state).unwrap_or_else(|_| vec![f64::NAN; v.len()])
+    }
+}
+
+/// A motion that goes on.
+pub(crate) struct Mover<'r, 'g> {
+    flow: Unforced<'r, 'g>,
+    state: State,
+    by: By,
+}
+
+enum By {
+    Fixed(FixedStep),
+    Adaptive(Box<March<f64, Vec<f64>, Vec<f64>>>),
+}
+
+impl<'r, 'g> Mover<'r, 'g> {
+    /// In steps of a given size.
+    pub(crate) fn fixed(robot: &'r Robot<'g>, state: State, method: FixedStep) -> Self {
+        Self { flow: Unforced { robot, links: Links::of(&robot.tree) }, state, by: By::Fixed(method) }
+    }
+
+    /// In steps of their own size, within a tolerance.
+    pub(crate) fn adaptive(robot: &'r Robot<'g>, state: State, tolerance: f64) -> Result<Self, Failure> {
+        let place = (state.q.clone(), state.v.clone());
+        let march =
+            March::new(place, Tolerances::of(tolerance)).map_err(|error| Problem::new(error.to_string()))?;
+        // Whoever asks for many steps may wait for them.
+        let march = march.with_most_steps(usize::MAX);
+        Ok(Self {
+            flow: Unforced { robot, links: Links::of(&robot.tree) },
+            state,
+            by: By::Adaptive(Box::new(march)),
+        })
+    }
+
+    /// The state now.
+    pub(crate) fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Goes from one time to another, in s, of a motion that ends with `end`.
+    pub(crate) fn advance(&mut self, [before, now]: [f64; 2], end: f64) -> Result<(), Failure> {
+        let State { q, v, .. } = &self.state;
+        let reached = match &mut self.by {
+            By::Fixed(method) => Ok(method.follow(&mut self.flow, before, (q, v), now - before)),
+            By::Adaptive(march) => march.reach(&mut self.flow, now, end).map_err(|error| error.to_string()),
+        };
+        let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
+        match reached {
+            Ok((q, v)) if finite(&q) && finite(&v) => {
+                (self.state.q, self.state.v) = (q, v);
+                Ok(())
+            }
+            lost => {
+                self.flow.robot.evaluate(Method::ForwardDynamics, &self.state)?;
+                let title = lost.err().unwrap_or_else(|| "the state is not finite".to_owned());
+                Err(Problem::new(title).into())
+            }
+        }
+    }
 }

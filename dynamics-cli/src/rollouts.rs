@@ -16,13 +16,14 @@ use std::time::Instant;
 use dynamics_codegen::symbolic::Graph;
 use rayon::prelude::*;
 
-use self::engine::{Engine, Integrator, LANES, Plan, Rollout};
+use self::engine::{Engine, LANES, Plan, Rollout};
 use self::study::{Study, Target};
 use self::table::{Format, Rows, Table};
 use self::variation::Given;
 use crate::attributes::quoted;
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, InputArgs, shown};
+use crate::motion::FixedStep;
 use crate::progress::Progress;
 use crate::robot::{Robot, State, Wanted};
 use crate::simulate::{Clock, METHODS, duration, step};
@@ -45,7 +46,7 @@ pub(crate) struct Args {
 
     /// The method of the integration
     #[arg(long, value_name = "METHOD", default_value = "rk4")]
-    method: Integrator,
+    method: FixedStep,
 
     /// What varies, and how: 'payload = uniform(0, 2)', 'q.elbow = normal(0, 10deg)', 'c = loguniform(0.01, 1)',
     /// 'v.elbow = -1..1', or a number. What is not `q.` or `v.` is a name that stands in another option for a number
@@ -186,7 +187,7 @@ fn names(robot: &Robot<'_>, study: &Study) -> (Vec<String>, Vec<String>) {
 fn story(args: &Args, input: &Input, robot: &Robot<'_>) -> Vec<(&'static str, String)> {
     let file = args.input.file.file_name().map_or("-".to_owned(), |file| shown(&file.to_string_lossy()));
     let mut command = format!("dynamics rollouts {}{}", quoted(&file), input.attributes.flags());
-    let method = if args.method == Integrator::Rk4 { "rk4" } else { "euler" };
+    let method = if args.method == FixedStep::Rk4 { "rk4" } else { "euler" };
     command += &format!(" --time {:?} --step {:?} --method {method}", args.time, args.step);
     let texts = [("vary", &args.variations), ("grid", &args.grids)];
     let texts = texts.into_iter().flat_map(|(option, texts)| texts.iter().map(move |text| (option, text)));

@@ -8,7 +8,7 @@ use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
 use crate::input::InputArgs;
-use crate::motion::stepped;
+use crate::motion::{FixedStep, Mover};
 use crate::output::{failed, writer};
 use crate::picture::{PictureArgs, Recording};
 use crate::progress::Progress;
@@ -26,9 +26,17 @@ pub(crate) struct Args {
     #[arg(long, value_name = "SECONDS", value_parser = duration, allow_hyphen_values = true)]
     time: f64,
 
-    /// The step of the integration, in seconds
+    /// The step of the integration, in seconds; of the adaptive method the time from one row to the next
     #[arg(long, value_name = "SECONDS", value_parser = step, allow_hyphen_values = true)]
     step: f64,
+
+    /// The method of the integration
+    #[arg(long, value_name = "METHOD", default_value = "rk4")]
+    method: Integrator,
+
+    /// The error that a step of the adaptive method may have, in rad and m, and as a share of the way; without it, 1e-9
+    #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true)]
+    tolerance: Option<f64>,
 
     /// Coordinates at the start: all of them, `0.1,-0.2`, or some by their names, `hinge=0.1`; the others are neutral
     #[arg(long, allow_hyphen_values = true)]
@@ -50,9 +58,19 @@ pub(crate) struct Args {
     picture: PictureArgs,
 }
 
+/// How a robot is moved on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Integrator {
+    /// The classical method of Runge and Kutta, of order 4
+    Rk4,
+    /// The semi-implicit method of Euler, of order 1
+    Euler,
+    /// That of Dormand and Prince, of order 5, in steps of its own size within `--tolerance`; rows are from its polynomials
+    Adaptive,
+}
+
 const EXAMPLES: &str = "\
-The method is the classical one of Runge and Kutta, of fourth order, with a fixed step; ball and free joints move on
-their manifold, so that quaternions stay of unit length.
+Whatever the method, ball and free joints move on their manifold, so that quaternions stay of unit length.
 
 Columns:
   time                       s
@@ -66,13 +84,14 @@ Columns:
 Charts of --plot-of:
   angles, speeds             of all joints; of a free one its position, and roll, pitch and yaw, or a quaternion if it
                              turns over
-  energy                     kinetic, potential, elastic, total; and the drift
+  energy                     kinetic, potential, elastic, total; and the change of the total
   phase:NAME                 the speed of a coordinate over its value
   poles                      of the linear model at the start
 
 Examples:
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
   dynamics simulate arm.urdf --time 1 --step 1e-4 --every 100
+  dynamics simulate arm.urdf --time 10 --step 0.01 --method adaptive --tolerance 1e-10 --q 0.1,0.2
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 --plot arm.svg --animate arm.html --trace tool
   dynamics simulate dog.urdf --base free --time 1 --step 1e-3 --q root_joint.z=0.6,knee=-1.2 --v root_joint.wz=1";
 
@@ -93,12 +112,26 @@ pub(crate) fn step(text: &str) -> Result<f64, String> {
     }
 }
 
+fn tolerance(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(tolerance) if tolerance.is_finite() && tolerance > 0.0 => Ok(tolerance),
+        _ => Err("give a finite number above zero".to_owned()),
+    }
+}
+
+/// The tolerance of the adaptive method.
+const TOLERANCE: f64 = 1e-9;
+
 pub(crate) const METHODS: [Method; 4] =
     [Method::ForwardDynamics, Method::KineticEnergy, Method::PotentialEnergy, Method::ElasticEnergy];
 
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let clock = Clock::of(args.time, args.step)?;
+    if args.tolerance.is_some() && args.method != Integrator::Adaptive {
+        let problem = Problem::new("`--tolerance` is for steps that find their own size");
+        return Err(Failure::CommandLine(Box::new(problem.help("add `--method adaptive`"))));
+    }
     let input = args.input.read()?;
     let graph = Graph::new();
     let methods = [&METHODS[..], args.picture.methods()].concat();
@@ -119,14 +152,20 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let row = |time: f64, state: &State| row(&robot, time, state, start);
     write(&row(0.0, &state)?)?;
     recording.see(0, 0.0, &state)?;
+    let mut mover = match args.method {
+        Integrator::Rk4 => Mover::fixed(&robot, state, FixedStep::Rk4),
+        Integrator::Euler => Mover::fixed(&robot, state, FixedStep::Euler),
+        Integrator::Adaptive => Mover::adaptive(&robot, state, args.tolerance.unwrap_or(TOLERANCE))?,
+    };
     let progress = Progress::of("simulating");
     for k in 1..=clock.steps {
         let (before, now) = (clock.at(k - 1), clock.at(k));
-        state = stepped(&robot, &state, now - before).map_err(|failure| lost(failure, now))?;
+        let lost = |failure| lost(failure, now, args.method);
+        mover.advance([before, now], args.time).map_err(lost)?;
         if k % args.every == 0 || k == clock.steps {
-            write(&row(now, &state).map_err(|failure| lost(failure, now))?)?;
+            write(&row(now, mover.state()).map_err(lost)?)?;
         }
-        recording.see(k, now, &state).map_err(|failure| lost(failure, now))?;
+        recording.see(k, now, mover.state()).map_err(lost)?;
         progress.done(k as f64 / clock.steps as f64);
     }
     out.flush().map_err(|error| failed(args.output.as_deref(), &error))?;
@@ -162,11 +201,15 @@ impl Clock {
 }
 
 /// Says when numbers got out of hand.
-fn lost(failure: Failure, time: f64) -> Failure {
+fn lost(failure: Failure, time: f64, method: Integrator) -> Failure {
     let Failure::Wrong(mut problems) = failure else { return failure };
+    let remedy = match method {
+        Integrator::Rk4 | Integrator::Euler => "give a smaller `--step`, or another state at the start",
+        Integrator::Adaptive => "give a larger `--tolerance`, or another state at the start",
+    };
     for problem in &mut problems {
         problem.title = format!("{}, {time:?} s after the start", problem.title);
-        problem.help = Some("give a smaller `--step`, or another state at the start".to_owned());
+        problem.help = Some(remedy.to_owned());
     }
     Failure::Wrong(problems)
 }

@@ -21,7 +21,7 @@ pub(super) enum Wish {
     Angles,
     /// All speeds.
     Speeds,
-    /// The energy and its drift.
+    /// The energy and its change.
     Energy,
     /// The speed of one coordinate over its value.
     Phase(String),

@@ -1,14 +1,14 @@
 //! Rollouts in lanes: as many at a time as there are lanes, each step by the tapes of the robot's programs.
 
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
-use dynamics_codegen::model::Motion;
 use dynamics_codegen::passes::Program;
-use dynamics_core::__private::{integrate_ball, integrate_free};
 use dynamics_core::lanes::{Lanes, f64x8};
+use dynamics_core::simulate::Flow;
 
 use super::study::{Study, Target};
 use super::tape::{Machine, Tape};
 use crate::failure::{Failure, Problem};
+use crate::motion::{FixedStep, Links};
 use crate::robot::Robot;
 use crate::simulate::Clock;
 
@@ -16,22 +16,12 @@ use crate::simulate::Clock;
 pub(super) type Wide = f64x8;
 pub(super) const LANES: usize = Wide::COUNT;
 
-/// How a step is made.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-pub(super) enum Integrator {
-    /// The classical method of Runge and Kutta, of order 4
-    Rk4,
-    /// The semi-implicit method of Euler, of order 1
-    Euler,
-}
-
 /// A robot's programs as tapes.
 pub(super) struct Engine {
     preparation: Tape,
     acceleration: Tape,
     energies: [Tape; 3],
-    /// How each link moves, and the first of its coordinates and of its speeds.
-    links: Vec<(Motion, usize, usize)>,
+    links: Links,
     sizes: Sizes,
 }
 
@@ -92,7 +82,7 @@ impl Engine {
                 tape(Method::PotentialEnergy)?,
                 tape(Method::ElasticEnergy)?,
             ],
-            links: robot.tree.links.iter().map(|link| (link.motion, link.drive.q, link.drive.v)).collect(),
+            links: Links::of(&robot.tree),
             sizes,
         })
     }
@@ -101,28 +91,6 @@ impl Engine {
     pub(super) fn width(&self) -> usize {
         1 + self.sizes.q + self.sizes.v + 4
     }
-
-    /// `q ⊕ δ`, as `Configuration::integrate`, to `moved`.
-    fn integrate(&self, q: &[Wide], delta: &[Wide], moved: &mut [Wide]) {
-        for &(motion, at, from) in &self.links {
-            match motion {
-                // Several links may share a coordinate.
-                Motion::Revolute | Motion::Prismatic => moved[at] = q[at] + delta[from],
-                Motion::Ball => {
-                    let ball = integrate_ball(part::<4>(q, at), part::<3>(delta, from));
-                    moved[at..at + 4].copy_from_slice(&ball);
-                }
-                Motion::Free => {
-                    let free = integrate_free(part::<7>(q, at), part::<6>(delta, from));
-                    moved[at..at + 7].copy_from_slice(&free);
-                }
-            }
-        }
-    }
-}
-
-fn part<const N: usize>(x: &[Wide], from: usize) -> [Wide; N] {
-    std::array::from_fn(|k| x[from + k])
 }
 
 /// What became of a rollout.
@@ -142,7 +110,7 @@ pub(super) struct Plan<'p> {
     pub(super) study: &'p Study,
     pub(super) clock: &'p Clock,
     pub(super) every: u64,
-    pub(super) integrator: Integrator,
+    pub(super) integrator: FixedStep,
     /// Where rollouts start, unless the study says otherwise.
     pub(super) start: (&'p [f64], &'p [f64]),
 }
@@ -158,10 +126,7 @@ impl Plan<'_> {
         let mut told = 0;
         for k in 1..=self.clock.steps {
             let (before, now) = (self.clock.at(k - 1), self.clock.at(k));
-            match self.integrator {
-                Integrator::Rk4 => mover.rk4(now - before),
-                Integrator::Euler => mover.euler(now - before),
-            }
+            mover.step(self.integrator, before, now - before);
             mover.note_losses(before, &mut rollouts);
             if k % self.every == 0 || k == self.clock.steps {
                 mover.sample(now, &mut rollouts);
@@ -205,7 +170,7 @@ impl Plan<'_> {
         preparation.run();
         let constant: Vec<Wide> =
             std::iter::once(Wide::from(0.0)).chain(fields).chain(preparation.results()).collect();
-        for machine in std::iter::once(&mut mover.acceleration).chain(&mut mover.energies) {
+        for machine in std::iter::once(&mut mover.flow.acceleration).chain(&mut mover.energies) {
             machine.inputs(q + v).copy_from_slice(&constant);
         }
         mover
@@ -214,75 +179,51 @@ impl Plan<'_> {
 
 /// Rollouts on their way.
 struct Mover<'e> {
-    engine: &'e Engine,
-    acceleration: Machine<'e, Wide>,
+    flow: Unforced<'e>,
     energies: [Machine<'e, Wide>; 3],
     q: Vec<Wide>,
     v: Vec<Wide>,
-    /// Room for stages: configurations, and vectors of speeds.
-    configurations: [Vec<Wide>; 3],
-    speeds: [Vec<Wide>; 8],
+}
+
+/// Robots in lanes that nothing drives.
+struct Unforced<'e> {
+    links: &'e Links,
+    acceleration: Machine<'e, Wide>,
+}
+
+impl Flow for Unforced<'_> {
+    type Scalar = Wide;
+    type Position = Vec<Wide>;
+    type Velocity = Vec<Wide>;
+
+    fn integrate(&self, q: &Vec<Wide>, delta: &Vec<Wide>) -> Vec<Wide> {
+        self.links.integrate(q, delta)
+    }
+
+    fn rate(&self, delta: &Vec<Wide>, v: &Vec<Wide>) -> Vec<Wide> {
+        self.links.rate(delta, v)
+    }
+
+    fn acceleration(&mut self, _time: Wide, q: &Vec<Wide>, v: &Vec<Wide>) -> Vec<Wide> {
+        load(&mut self.acceleration, q, v);
+        self.acceleration.run();
+        self.acceleration.results().collect()
+    }
 }
 
 impl<'e> Mover<'e> {
     fn new(engine: &'e Engine) -> Self {
-        let zeros = |length: usize| vec![Wide::from(0.0); length];
-        let Sizes { q, v, .. } = engine.sizes;
         Self {
-            engine,
-            acceleration: Machine::new(&engine.acceleration),
+            flow: Unforced { links: &engine.links, acceleration: Machine::new(&engine.acceleration) },
             energies: engine.energies.each_ref().map(Machine::new),
-            q: zeros(q),
-            v: zeros(v),
-            configurations: std::array::from_fn(|_| zeros(q)),
-            speeds: std::array::from_fn(|_| zeros(v)),
+            q: vec![],
+            v: vec![],
         }
     }
 
-    /// `q̇ = v`, `v̇ = a` by `dynamics_core`'s `SemiImplicitEuler`.
-    fn euler(&mut self, h: f64) {
-        let h = Wide::from(h);
-        let Self { engine, acceleration, q, v, configurations: [moved, ..], speeds: [a, delta, ..], .. } =
-            self;
-        accelerate(acceleration, q, v, a);
-        for ((v, a), delta) in v.iter_mut().zip(&*a).zip(&mut *delta) {
-            *v += *a * h;
-            *delta = *v * h;
-        }
-        engine.integrate(q, delta, moved);
-        std::mem::swap(q, moved);
-    }
-
-    /// The same by its `Rk4`: the classical method of Runge and Kutta, with two `⊕` where on a manifold one would lose
-    /// order (Celledoni, Marthinsen, Owren 2003).
-    fn rk4(&mut self, h: f64) {
-        let [half, sixth, twelfth] = [0.5, 1.0 / 6.0, 1.0 / 12.0].map(|part| Wide::from(h * part));
-        let [one, two, three] = [1.0, 2.0, 3.0].map(Wide::from);
-        let h = Wide::from(h);
-        let Self { engine, acceleration, q, v, configurations, speeds, .. } = self;
-        let [q2, q3, q4] = configurations;
-        let [a1, a2, a3, a4, v2, v3, v4, delta] = speeds;
-        accelerate(acceleration, q, v, a1);
-        set(v2, |k| v[k] + a1[k] * half);
-        set(delta, |k| v[k] * half);
-        engine.integrate(q, delta, q2);
-        accelerate(acceleration, q2, v2, a2);
-        set(v3, |k| v[k] + a2[k] * half);
-        set(delta, |k| v2[k] * half);
-        engine.integrate(q, delta, q3);
-        accelerate(acceleration, q3, v3, a3);
-        set(v4, |k| v[k] + a3[k] * h);
-        set(delta, |k| v3[k] * h - v[k] * half);
-        engine.integrate(q2, delta, q4);
-        accelerate(acceleration, q4, v4, a4);
-        let middle = |k: usize| (v2[k] + v3[k]) * two;
-        set(delta, |k| (v[k] * three + middle(k) - v4[k] * one) * twelfth);
-        engine.integrate(q, delta, q2);
-        set(delta, |k| (v4[k] * three + middle(k) - v[k] * one) * twelfth);
-        engine.integrate(q2, delta, q);
-        for (k, v) in v.iter_mut().enumerate() {
-            *v += (a1[k] + (a2[k] + a3[k]) * two + a4[k]) * sixth;
-        }
+    fn step(&mut self, method: FixedStep, time: f64, step: f64) {
+        let from = (&self.q, &self.v);
+        (self.q, self.v) = method.follow(&mut self.flow, Wide::from(time), from, Wide::from(step));
     }
 
     /// Notes which rollouts are no longer finite; they were so at `before`.
@@ -331,14 +272,4 @@ fn load(machine: &mut Machine<'_, Wide>, q: &[Wide], v: &[Wide]) {
     let inputs = machine.inputs(0);
     inputs[..q.len()].copy_from_slice(q);
     inputs[q.len()..q.len() + v.len()].copy_from_slice(v);
-}
-
-fn accelerate(machine: &mut Machine<'_, Wide>, q: &[Wide], v: &[Wide], a: &mut [Wide]) {
-    load(machine, q, v);
-    machine.run();
-    a.iter_mut().zip(machine.results()).for_each(|(a, result)| *a = result);
-}
-
-fn set(x: &mut [Wide], f: impl Fn(usize) -> Wide) {
-    x.iter_mut().enumerate().for_each(|(k, x)| *x = f(k));
 }

@@ -168,10 +168,19 @@ fn a_wrong_simulation_does_not_start() {
     let coarse = [&simulate[..], &["--step", "1e4", "--time", "1e6", "--v", "0,1e3"]].concat();
     let done = dynamics(&coarse);
     assert!(done.code == 1 && done.stdout.lines().count() > 1, "{}", done.stderr);
+    assert!(done.stderr.contains("the state is not finite, 20000.0 s after the start"), "{}", done.stderr);
+    let adaptive = [&usual[..], &["--method", "adaptive"]].concat();
+    for tolerance in ["0", "-1e-6", "NaN", "small"] {
+        let complaint = dynamics(&[&adaptive[..], &["--tolerance", tolerance]].concat()).failed(2);
+        assert!(complaint.contains("give a finite number above zero"), "{complaint}");
+    }
+    let complaint = dynamics(&[&usual[..], &["--tolerance", "1e-6"]].concat()).failed(2);
+    assert!(complaint.contains("add `--method adaptive`"), "{complaint}");
+    let exact = [&adaptive[..], &["--tolerance", "1e-200", "--q", "0,1"]].concat();
+    let complaint = dynamics(&exact).failed(1);
     assert!(
-        done.stderr.contains("is not finite at this state, 20000.0 s after the start"),
-        "{}",
-        done.stderr
+        complaint.contains("no step is small enough") && complaint.contains("larger `--tolerance`"),
+        "{complaint}"
     );
 }
 

@@ -26,7 +26,7 @@ fn a_swing_is_drawn() {
         "angle, rad",
         "distance, m",
         "energy, J",
-        "drift of the energy",
+        "change of the energy",
         "speed of hinge",
         "poles",
         ">slider<",

@@ -114,6 +114,51 @@ fn a_tumbling_brick_is_followed_to_the_fourth_order() {
     assert!((norm - 1.0).abs() < 1e-15, "{norm}");
 }
 
+/// A pole that falls and swings, after a second: its angle and its speed.
+fn swung(step: &str, method: &[&str]) -> [f64; 2] {
+    let cart = model("cartpole");
+    let arguments = ["simulate", &cart, "--time", "1", "--step", step, "--q", "0,1", "--every", "1000000"];
+    let rows = rows(&dynamics(&[&arguments[..], method].concat()).ok());
+    assert_eq!(rows.len(), 2);
+    [rows[1][2], rows[1][4]]
+}
+
+/// Methods of order 1, 4 and 5 come to the same end, each with its error.
+#[test]
+fn methods_agree_as_well_as_they_can() {
+    let off = |found: [f64; 2], exact: [f64; 2]| f64::hypot(found[0] - exact[0], found[1] - exact[1]);
+    let adaptive = ["--method", "adaptive", "--tolerance", "1e-12"];
+    let exact = swung("0.1", &adaptive);
+    // Its rows come from the polynomials of its own steps, and do not change these.
+    assert_eq!(swung("0.01", &adaptive), exact);
+    assert!(off(swung("1e-3", &["--method", "rk4"]), exact) < 1e-9);
+    assert_eq!(swung("1e-3", &[]), swung("1e-3", &["--method", "rk4"]));
+    let euler = ["1e-3", "5e-4"].map(|step| off(swung(step, &["--method", "euler"]), exact));
+    assert!((euler[0] / euler[1] - 2.0).abs() < 0.05 && euler[0] > 1e-5, "{euler:?}");
+    let loose = off(swung("0.1", &["--method", "adaptive", "--tolerance", "1e-4"]), exact);
+    assert!(loose > 1e-9 && loose < 1e-2, "{loose}");
+}
+
+/// Between the ends of long steps too a brick is on its manifold, and turns evenly.
+#[test]
+fn rows_between_long_steps_are_of_the_motion() {
+    let v = "root_joint.vx=3,root_joint.vz=4,root_joint.wz=-2.5";
+    let arguments = ["simulate", "-", "--base", "free", "--time", "1", "--step", "0.01", "--v", v];
+    let adaptive = ["--method", "adaptive", "--tolerance", "1e-10"];
+    let rows = rows(&dynamics_on(BRICK.as_bytes(), &[&arguments[..], &adaptive].concat()).ok());
+    assert_eq!(rows.len(), 101);
+    for (k, row) in rows.iter().enumerate() {
+        let t = k as f64 / 100.0;
+        let (sine, cosine) = (-2.5 * t / 2.0_f64).sin_cos();
+        let expected = [t, 3.0 * t, 0.0, 4.0 * t - 0.5 * 9.81 * t * t, 0.0, 0.0, sine, cosine];
+        for (found, expected) in row.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-8, "{t}: {found} is not {expected}");
+        }
+        let norm = row[4..8].iter().map(|x| x * x).sum::<f64>();
+        assert!((norm - 1.0).abs() < 1e-15, "{norm}");
+    }
+}
+
 /// A cart on a spring and a damper: `x = e^(−ζωt)·(cos ω_d t + …)`, and what the damper takes is missing.
 #[test]
 fn springs_and_dampers_of_options_act() {
