@@ -3,8 +3,8 @@
 use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::model::{Motion, Tree};
 use dynamics_core::__private::{ball_rate, free_rate, integrate_ball, integrate_free};
-use dynamics_core::Scalar;
 use dynamics_core::simulate::{Explicit, Flow, March, Rk4, SemiImplicitEuler, Tolerances};
+use dynamics_core::{Error, Scalar};
 
 use crate::failure::{Failure, Problem};
 use crate::robot::{Robot, State};
@@ -152,12 +152,15 @@ impl<'r, 'g> Mover<'r, 'g> {
         &self.state
     }
 
-    /// Goes from one time to another, in s, of a motion that ends with `end`.
-    pub(crate) fn advance(&mut self, [before, now]: [f64; 2], end: f64) -> Result<(), Failure> {
+    /// Goes from one time to another, in s, of a motion that ends with `end`; or says what is wrong, and when.
+    pub(crate) fn advance(&mut self, [before, now]: [f64; 2], end: f64) -> Result<(), (Failure, f64)> {
         let State { q, v, .. } = &self.state;
         let reached = match &mut self.by {
             By::Fixed(method) => Ok(method.follow(&mut self.flow, before, (q, v), now - before)),
-            By::Adaptive(march) => march.reach(&mut self.flow, now, end).map_err(|error| error.to_string()),
+            By::Adaptive(march) => march.reach(&mut self.flow, now, end).map_err(|error| match error {
+                Error::StepTooSmall { time } => ("no step is small enough for the tolerance", time),
+                _ => (NOT_FINITE, march.time()),
+            }),
         };
         let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
         match reached {
@@ -166,10 +169,12 @@ impl<'r, 'g> Mover<'r, 'g> {
                 Ok(())
             }
             lost => {
-                self.flow.robot.evaluate(Method::ForwardDynamics, &self.state)?;
-                let title = lost.err().unwrap_or_else(|| "the state is not finite".to_owned());
-                Err(Problem::new(title).into())
+                let (title, time) = lost.err().unwrap_or((NOT_FINITE, now));
+                let cause = self.flow.robot.evaluate(Method::ForwardDynamics, &self.state).err();
+                Err((cause.unwrap_or_else(|| Problem::new(title).into()), time))
             }
         }
     }
 }
+
+const NOT_FINITE: &str = "the state is not finite";

@@ -160,8 +160,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let progress = Progress::of("simulating");
     for k in 1..=clock.steps {
         let (before, now) = (clock.at(k - 1), clock.at(k));
-        let lost = |failure| lost(failure, now, args.method);
-        mover.advance([before, now], args.time).map_err(lost)?;
+        let lost_at = |(failure, time)| lost(failure, time, args.method);
+        let lost = |failure| lost_at((failure, now));
+        mover.advance([before, now], args.time).map_err(lost_at)?;
         if k % args.every == 0 || k == clock.steps {
             write(&row(now, mover.state()).map_err(lost)?)?;
         }
