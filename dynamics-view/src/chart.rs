@@ -45,6 +45,17 @@ pub enum Plane {
     Discrete,
 }
 
+/// Where energy went since the start, in J, as an [`EnergyMonitor`](dynamics_core::simulate::EnergyMonitor) has it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Account {
+    /// What the motors gave.
+    pub work: f64,
+    /// What dampers and friction took.
+    pub dissipated: f64,
+    /// What cannot be accounted for.
+    pub imbalance: f64,
+}
+
 impl Chart {
     /// Lines over time, in s, of a quantity in a unit: `Chart::over_time("angle", "rad", &times)`.
     #[must_use]
@@ -62,21 +73,52 @@ impl Chart {
         self
     }
 
-    /// The energy over time, in J, and how far its sum has drifted from that at the start.
+    /// The energy over time, in J, and how its sum has changed since the start.
     ///
-    /// What dampers and friction took, what motors gave, and the integrator's error are in the drift. Energy of springs
-    /// is drawn where there is some.
+    /// What motors gave, what dampers and friction took, and the integrator's error are in the change;
+    /// [`energy_account`](Self::energy_account) tells them apart. Energy of springs is drawn where there is some.
     #[must_use]
     pub fn energy(times: &[f64], energy: &[Energy<f64>]) -> [Self; 2] {
-        let of = |part: fn(&Energy<f64>) -> f64| energy.iter().map(part).collect::<Vec<_>>();
-        let mut parts = Self::over_time("energy", "J", times).line("total", of(Energy::total));
-        parts = parts.line("kinetic", of(|e| e.kinetic)).line("potential", of(|e| e.potential));
-        if energy.iter().any(|e| e.elastic != 0.0) {
-            parts = parts.line("elastic", of(|e| e.elastic));
-        }
         let start = energy.first().map_or(0.0, Energy::total);
-        let drift = energy.iter().map(|e| e.total() - start);
-        [parts, Self::over_time("drift of the energy", "J", times).line("total − start", drift)]
+        let change = energy.iter().map(|e| e.total() - start);
+        [
+            Self::energies(times, energy),
+            Self::over_time("change of the energy", "J", times).line("total − start", change),
+        ]
+    }
+
+    /// The energy over time, in J; where its change came from, the work of the motors and what dampers and friction took;
+    /// and what is left, the integrator's error and that of the account.
+    #[must_use]
+    pub fn energy_account(times: &[f64], energy: &[Energy<f64>], accounts: &[Account]) -> Vec<Self> {
+        let [parts, mut change] = Self::energy(times, energy);
+        let of = |entry: fn(&Account) -> f64| accounts.iter().map(entry).collect::<Vec<_>>();
+        let (work, taken) = (of(|account| account.work), of(|account| -account.dissipated));
+        let [has_work, has_taken] = [&work, &taken].map(|line| line.iter().any(|joules| *joules != 0.0));
+        if has_work {
+            change = change.line("work of the motors", work);
+        }
+        if has_taken {
+            change = change.line("taken by dampers", taken);
+        }
+        let what_is_left = match (has_work, has_taken) {
+            (true, true) => "change − work + taken",
+            (true, false) => "change − work",
+            (false, true) => "change + taken",
+            (false, false) => "total − start",
+        };
+        let error = Self::over_time("error of the energy", "J", times);
+        let error = error.line(what_is_left, of(|account| account.imbalance));
+        if has_work || has_taken { vec![parts, change, error] } else { vec![parts, error] }
+    }
+
+    fn energies(times: &[f64], energy: &[Energy<f64>]) -> Self {
+        let of = |part: fn(&Energy<f64>) -> f64| energy.iter().map(part).collect::<Vec<_>>();
+        let parts = Self::over_time("energy", "J", times)
+            .line("total", of(Energy::total))
+            .line("kinetic", of(|e| e.kinetic))
+            .line("potential", of(|e| e.potential));
+        if energy.iter().any(|e| e.elastic != 0.0) { parts.line("elastic", of(|e| e.elastic)) } else { parts }
     }
 
     /// The phase portrait of one coordinate: its speed over its value.

@@ -27,7 +27,7 @@ mod svg;
 mod text;
 mod thin;
 
-pub use chart::{Chart, Plane};
+pub use chart::{Account, Chart, Plane};
 pub use coordinates::{Coordinate, Coordinates, Loose, Measure};
 pub use error::Error;
 pub use figure::Figure;

@@ -1,11 +1,12 @@
 //! A robot of the derive, watched while it moves: its charts, and its film.
 
 use dynamics_core::nalgebra::SVector;
+use dynamics_core::simulate::EnergyMonitor;
 use dynamics_core::{
     Configuration, Dynamics, EachFrame, Energy, Frame, FrameVisitor, Mechanism, Regressor, Sample, State,
 };
 
-use crate::chart::Chart;
+use crate::chart::{Account, Chart};
 use crate::coordinates::{Coordinate, Coordinates, Loose, Measure};
 use crate::figure::Figure;
 use crate::film::Film;
@@ -39,6 +40,7 @@ pub struct Recording<'r, R, const NQ: usize, const NV: usize> {
     scene: Scene,
     coordinates: Coordinates,
     seen: Vec<Seen<NQ, NV>>,
+    monitor: Option<EnergyMonitor<f64, NQ, NV>>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -46,6 +48,8 @@ struct Seen<const NQ: usize, const NV: usize> {
     time: f64,
     state: State<f64, NQ, NV>,
     energy: Energy<f64>,
+    /// None where the input is not known.
+    account: Option<Account>,
 }
 
 /// An animation has no more frames than this many a second.
@@ -76,7 +80,7 @@ where
             ..Body::default()
         });
         let scene = Scene { name: R::NAME.to_owned(), bodies: bodies.collect() };
-        Self { robot, scene, coordinates: joints.coordinates(NQ > NV), seen: vec![] }
+        Self { robot, scene, coordinates: joints.coordinates(NQ > NV), seen: vec![], monitor: None }
     }
 
     /// With the masses of its bodies, as its inertial parameters have them.
@@ -108,9 +112,33 @@ where
         self
     }
 
-    /// Keeps a moment of a simulation.
+    /// Keeps a moment of a simulation. What drives the robot is not known, and so the change of its energy is all that is
+    /// drawn of that.
     pub fn see(&mut self, sample: &Sample<'_, R, f64, NQ, NV>) {
-        self.seen.push(Seen { time: sample.time, state: sample.state, energy: sample.energy() });
+        let Sample { time, state, .. } = *sample;
+        // At the start nothing has been done yet.
+        let account = self.seen.is_empty().then(Account::default);
+        if account.is_some() {
+            self.monitor = Some(EnergyMonitor::new(sample));
+        }
+        self.seen.push(Seen { time, state, energy: sample.energy(), account });
+    }
+
+    /// Keeps a moment of a simulation, since whose last one the joint forces were `τ = input(time, state)`, in N·m or N.
+    ///
+    /// Where every moment but the first was kept so, their work is drawn, what dampers took, and what is left of the energy's change: the
+    /// error. Of forces that were held, `seen.see_under(&sample, |_, _| tau)`.
+    pub fn see_under(
+        &mut self,
+        sample: &Sample<'_, R, f64, NQ, NV>,
+        input: impl FnMut(f64, &State<f64, NQ, NV>) -> SVector<f64, NV>,
+    ) {
+        let monitor = self.monitor.get_or_insert_with(|| EnergyMonitor::new(sample));
+        monitor.observe(sample, input);
+        let (work, dissipated, imbalance) = (monitor.work(), monitor.dissipated(), monitor.imbalance());
+        let account = Some(Account { work, dissipated, imbalance });
+        let Sample { time, state, .. } = *sample;
+        self.seen.push(Seen { time, state, energy: sample.energy(), account });
     }
 
     /// Keeps every moment that passes, and passes it on: `seen.watch(simulation.steps(1000)).last()`.
@@ -121,6 +149,19 @@ where
         samples.inspect(|sample| {
             if let Ok(sample) = sample {
                 self.see(sample);
+            }
+        })
+    }
+
+    /// [`watch`](Self::watch), of a motion under the joint forces `τ = input(time, state)`.
+    pub fn watch_under<'s, E>(
+        &'s mut self,
+        samples: impl Iterator<Item = Result<Sample<'r, R, f64, NQ, NV>, E>> + 's,
+        mut input: impl FnMut(f64, &State<f64, NQ, NV>) -> SVector<f64, NV> + 's,
+    ) -> impl Iterator<Item = Result<Sample<'r, R, f64, NQ, NV>, E>> + 's {
+        samples.inspect(move |sample| {
+            if let Ok(sample) = sample {
+                self.see_under(sample, &mut input);
             }
         })
     }
@@ -174,7 +215,10 @@ where
         let (q, v) = rows(seen.iter().copied());
         let mut charts = self.coordinates.charts(&times, &q);
         charts.extend(self.coordinates.speed_charts(&times, &v));
-        charts.extend(Chart::energy(&times, &energy));
+        match seen.iter().map(|seen| seen.account).collect::<Option<Vec<Account>>>() {
+            Some(accounts) => charts.extend(Chart::energy_account(&times, &energy, &accounts)),
+            None => charts.extend(Chart::energy(&times, &energy)),
+        }
         charts
     }
 }
