@@ -2,8 +2,7 @@
 //!
 //! `cargo run --example acrobot`, and in pictures `cargo run --example acrobot -- --plot acrobot.svg --animate acrobot.html`
 
-use std::cell::Cell;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use dynamics_core::control::StateFeedback;
 use dynamics_core::linear::{Lqr, Weights};
@@ -44,35 +43,33 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         gain.as_slice(),
         poles.map(|pole| pole.re).as_slice()
     );
-    let feedback = StateFeedback { state: upright, u: still, gain };
+    let feedback = StateFeedback::new(upright, still, gain).wrapping([true, true]);
     let lean = basin(&feedback)?;
     println!("Stretched and at rest, it is caught from up to {lean:.3} rad beside the upright pose.");
 
     // It hangs, and has got a nudge. A controller of 1 kHz holds its torque over a step.
     let start = State::new(SVector::from([PI, 0.0]), SVector::from([0.1, 0.0]));
-    let tau = Cell::new(SVector::zeros());
-    let mut simulation = Simulation::new(&Acrobot, start, STEP)?.with_input(|_, _| tau.get());
+    let mut simulation = Simulation::new(&Acrobot, start, STEP)?;
     let mut seen = Recording::of(&Acrobot).with_masses();
     seen.see(&simulation.sample());
     let mut caught = None;
     println!("\n  time, s   shoulder, rad   elbow, rad   energy above upright, J");
     for step in 1..=SECONDS * 1000 {
         let state = *simulation.state();
-        let near = nearest(&state);
         // The swing ends where a look ahead says that the feedback will bring it to rest.
-        if caught.is_none() && near.q.norm() < 0.6 && comes_to_rest(&feedback, near)? {
+        if caught.is_none() && lean_of(&feedback, &state) < 0.6 && comes_to_rest(&feedback, state)? {
             caught = Some(simulation.time());
         }
-        tau.set(if caught.is_some() { balance(&feedback, &near) } else { swing(&state) });
-        let sample = simulation.step()?;
-        seen.see(&sample);
+        let tau = if caught.is_some() { balance(&feedback, &state) } else { swing(&state) };
+        let sample = simulation.step_with(&tau)?;
+        seen.see_under(&sample, |_, _| tau);
         if step % 1000 == 0 {
             let State { q, .. } = sample.state;
             println!("{:9.1} {:15.4} {:12.5} {:12.4}", sample.time, q[0], q[1], -missing(&sample.state));
         }
     }
     let time = caught.ok_or("not caught: no swing came near enough")?;
-    let left: SVector<f64, 4> = feedback.deviation(&Acrobot, &nearest(simulation.state()));
+    let left: SVector<f64, 4> = feedback.deviation(&Acrobot, simulation.state());
     let after = SECONDS as f64 - time;
     println!(
         "Caught at {time:.3} s; {after:.1} s later the state is {:.1e} from the upright one.",
@@ -87,22 +84,21 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     )
 }
 
-/// The same state, whole turns taken out.
-fn nearest(state: &State<f64, 2, 2>) -> State<f64, 2, 2> {
-    State { q: state.q.map(|angle| angle - TAU * (angle / TAU).round()), v: state.v }
+/// How far it leans from the upright pose, in rad of both joints.
+fn lean_of(feedback: &Feedback, state: &State<f64, 2, 2>) -> f64 {
+    feedback.deviation(&Acrobot, state).fixed_rows::<2>(0).norm()
 }
 
 /// The joint forces that balance, as far as the motor can.
 fn balance(feedback: &Feedback, state: &State<f64, 2, 2>) -> SVector<f64, 2> {
-    let u = feedback.input(&Acrobot, state)[0];
-    control::saturated(&Acrobot, &SVector::from([0.0, u])).0
+    control::saturated(&Acrobot, &feedback.torque(&Acrobot, state)).0
 }
 
 /// Whether the feedback brings the real robot, with its limit of torque, to rest: simulated, for four seconds.
 fn comes_to_rest(feedback: &Feedback, from: State<f64, 2, 2>) -> Result<bool, Error> {
     let mut ahead = Simulation::new(&Acrobot, from, 2.0 * STEP)?.with_input(|_, now| balance(feedback, now));
     for sample in ahead.steps(2000) {
-        if sample?.state.q.norm() > 2.0 {
+        if lean_of(feedback, &sample?.state) > 2.0 {
             return Ok(false);
         }
     }
@@ -138,7 +134,7 @@ fn missing(State { q, v }: &State<f64, 2, 2>) -> f64 {
 /// elbow its motion; the energy in place of his arctangent as in R. Tedrake, *Underactuated Robotics*, MIT 2023, ch. 3.
 fn swing(state: &State<f64, 2, 2>) -> SVector<f64, 2> {
     let State { q, v } = state;
-    let bent = q[1] - TAU * (q[1] / TAU).round();
+    let bent = control::within_half_a_turn(q[1]);
     let elbow = -PUMP * missing(state) * v[0] - SPRING * bent - DAMPER * v[1];
     let (m, h) = (Acrobot.mass_matrix(q), Acrobot.bias_forces(q, v));
     let shoulder = -(m[(0, 1)] * elbow + h[0]) / m[(0, 0)];

@@ -36,15 +36,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     // The whole nonlinear robot under that feedback, from 0.3 rad.
     let start = State::rest(SVector::from([0.0, 0.3]));
-    let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(|_, state| {
+    let force = |_, state: &State<f64, 2, 2>| {
         let x = SVector::from([state.q[0], state.q[1], state.v[0], state.v[1]]);
         SVector::from([-(gain * x).x, 0.0])
-    });
+    };
+    let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(force);
     let mut seen = Recording::of(&CartPole).with_masses();
     seen.see(&simulation.sample());
     println!("  time, s    cart, m   pole, rad");
     for _ in 0..8 {
-        let sample = seen.watch(simulation.steps(1000)).last().expect("a thousand steps have a last")?;
+        let sample =
+            seen.watch_under(simulation.steps(1000), force).last().expect("a thousand steps have a last")?;
         println!("{:9.1} {:10.5} {:11.6}", sample.time, sample.state.q[0], sample.state.q[1]);
     }
 

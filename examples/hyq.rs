@@ -63,7 +63,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let Sample { time, state: State { q, v }, .. } = arrival.sample;
         momenta.observe(&arrival.sample);
         energy.observe(&arrival.sample, motors);
-        seen.see(&arrival.sample);
+        seen.see_under(&arrival.sample, motors);
         if step % 100 == 0 || arrival.is_event() {
             let [x, y, z] = arrival.sample.momentum().angular.data.0[0];
             println!("{time:9.4} {:11.4} {:13.4} {x:12.7} {y:11.7} {z:11.7}", q[2], v[3]);

@@ -2,7 +2,6 @@
 //!
 //! `cargo run --example puma_circle`, and in pictures `cargo run --example puma_circle -- --plot circle.svg --animate circle.html`
 
-use std::cell::Cell;
 use std::f64::consts::TAU;
 
 use dynamics_core::control::{BaseParameters, ComputedTorque, SlotineLi};
@@ -44,8 +43,6 @@ const NOD: f64 = 0.4;
 /// The controllers run at 1 kHz.
 const STEP: f64 = 1e-3;
 const STEPS_PER_LAP: usize = 2000;
-/// How many base parameters the arm has.
-const NB: usize = 52;
 
 fn main() -> Result<(), Failure> {
     let real = Puma560 { load: LOAD }.prepare();
@@ -62,14 +59,14 @@ fn main() -> Result<(), Failure> {
         family: BaseParameters,
     };
     let mut seen = Recording::of(&real).with_masses();
-    let wrong = run(&real, &lap, |state, desired| computed.torque(&model, state, desired), |_| ())?;
-    let right = run(&real, &lap, |state, desired| computed.torque(&real, state, desired), |_| ())?;
+    let wrong = run(&real, &lap, |state, desired| computed.torque(&model, state, desired), |_, _| ())?;
+    let right = run(&real, &lap, |state, desired| computed.torque(&real, state, desired), |_, _| ())?;
     let learn = |state: &_, desired: &_| {
-        let tracking = adaptive.track::<_, 6, 12, 6>(&model, state, desired);
+        let tracking = adaptive.track(&model, state, desired);
         adaptive.adapt(&tracking, STEP);
         tracking.tau
     };
-    let learned = run(&real, &lap, learn, |sample| seen.see(sample))?;
+    let learned = run(&real, &lap, learn, |sample, tau| seen.see_under(sample, |_, _| tau))?;
 
     println!("The wrist on a circle of {RADIUS} m, {LAP} s a lap, with {LOAD} kg in the hand.");
     println!("Its greatest distance from where it should be, in mm:");
@@ -78,7 +75,7 @@ fn main() -> Result<(), Failure> {
     for (lap, ((wrong, right), learned)) in wrong.iter().zip(&right).zip(&learned).enumerate() {
         println!("{:5} {:14.2} {:7.2} {:14.2}", lap + 1, wrong * 1e3, right * 1e3, learned * 1e3);
     }
-    println!("Three of its {NB} base parameters, kg m; it need not find all of them to track:");
+    println!("Three of its {} base parameters, kg m; it need not find all of them to track:", Puma560::NB);
     let (thought, truth, first) = (adaptive.parameters, real.base_parameters(), model.base_parameters());
     for name in ["joint2.mass_x", "joint3.mass_y", "joint5.mass_y"] {
         let at = Puma560::BASE_PARAMETER_NAMES.iter().position(|known| *known == name);
@@ -133,7 +130,7 @@ fn with_wrist(arm: SVector<f64, 3>, wrist: f64) -> SVector<f64, 6> {
 
 /// How fast each base parameter may change: moments of mass, of inertia, and less at the hand, where inertias are small. The
 /// arm is known to have no friction, dampers or rotors.
-fn learning() -> SVector<f64, NB> {
+fn learning() -> SVector<f64, { Puma560::NB }> {
     SVector::from_fn(|k, _| {
         let name = Puma560Prepared::BASE_PARAMETER_NAMES[k];
         let hand = if name.starts_with("joint6") { 1e-2 } else { 1.0 };
@@ -152,17 +149,16 @@ fn run(
     real: &Puma560Prepared,
     lap: &[Reference<f64, 6, 6>],
     mut controller: impl FnMut(&State<f64, 6, 6>, &Reference<f64, 6, 6>) -> SVector<f64, 6>,
-    mut see: impl FnMut(&Sample<'_, Puma560Prepared, f64, 6, 6>),
+    mut see: impl FnMut(&Sample<'_, Puma560Prepared, f64, 6, 6>, SVector<f64, 6>),
 ) -> Result<Vec<f64>, Failure> {
-    let tau = Cell::new(SVector::zeros());
-    let mut arm = Simulation::new(real, State::new(lap[0].q, lap[0].v), STEP)?.with_input(|_, _| tau.get());
+    let mut arm = Simulation::new(real, State::new(lap[0].q, lap[0].v), STEP)?;
     let mut worst = vec![];
     for _ in 0..LAPS {
         let mut most = 0.0_f64;
         for (desired, next) in lap.iter().zip(lap.iter().cycle().skip(1)) {
-            tau.set(controller(arm.state(), desired));
-            let sample = arm.step()?;
-            see(&sample);
+            let tau = controller(arm.state(), desired);
+            let sample = arm.step_with(&tau)?;
+            see(&sample, tau);
             let place = |q| real.pose::<Link4>(q).translation;
             most = most.max((place(&sample.state.q) - place(&next.q)).norm());
         }

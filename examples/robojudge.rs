@@ -128,7 +128,8 @@ fn wave() -> Result<(), Box<dyn std::error::Error>> {
     println!("\nIt waves to the winner, who is {WINNER} rad to its left:");
     println!("  time, s   column, rad   arm, rad   should be   torques, N m");
     for _ in 0..8 {
-        let sample = seen.watch(simulation.steps(500)).last().expect("500 steps have a last")?;
+        let sample =
+            seen.watch_under(simulation.steps(500), torque).last().expect("500 steps have a last")?;
         let (q, tau) = (sample.state.q, torque(sample.time, &sample.state));
         let arm = hello(sample.time).q[1];
         println!("{:9.1} {:13.5} {:10.5} {arm:11.5} {:8.3} {:6.3}", sample.time, q[0], q[1], tau[0], tau[1]);

@@ -2,7 +2,7 @@
 //!
 //! `cargo run --example swing_up`, and in pictures `cargo run --example swing_up -- --plot swing_up.svg --animate swing_up.html`
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use dynamics_core::control::StateFeedback;
 use dynamics_core::linear::{Lqr, Weights, poles};
@@ -48,15 +48,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         gain.as_slice(),
         closed.map(|pole| pole.re).as_slice()
     );
-    let catch = Catch { feedback: StateFeedback { state: upright, u: still, gain }, cost };
+    let catch = Catch { feedback: StateFeedback::new(upright, still, gain).wrapping([false, true]), cost };
 
     // It hangs, and has got a nudge.
     let start = State::new(SVector::from([0.0, PI]), SVector::from([0.0, 0.1]));
     let force = |_, state: &State<f64, 2, 2>| {
-        let near = nearest(state);
-        let u =
-            if catch.cost(&near) < REGION { catch.feedback.input(&CartPole, &near)[0] } else { swing(state) };
-        control::saturated(&CartPole, &SVector::from([u, 0.0])).0
+        let tau = if catch.cost(state) < REGION {
+            catch.feedback.torque(&CartPole, state)
+        } else {
+            SVector::from([swing(state), 0.0])
+        };
+        control::saturated(&CartPole, &tau).0
     };
     let mut simulation = Simulation::new(&CartPole, start, 1e-3)?.with_input(force);
     let mut seen = Recording::of(&CartPole).with_masses();
@@ -66,9 +68,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("\n  time, s    cart, m   pole, rad   energy above upright, J");
     for step in 1..=SECONDS * 1000 {
         let sample = simulation.step()?;
-        seen.see(&sample);
+        seen.see_under(&sample, force);
         furthest = furthest.max(sample.state.q[0].abs());
-        match (caught, catch.cost(&nearest(&sample.state)) < REGION) {
+        match (caught, catch.cost(&sample.state) < REGION) {
             (None, true) => caught = Some(sample.time),
             (Some(_), false) => return Err(format!("lost again at {:.3} s", sample.time).into()),
             _ => {}
@@ -79,7 +81,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     let time = caught.ok_or("not caught: the swing never came into the region of the feedback")?;
-    let left = catch.feedback.deviation(&CartPole, &nearest(simulation.state())).norm();
+    let left = catch.feedback.deviation(&CartPole, simulation.state()).norm();
     println!(
         "Caught at {time:.3} s; {:.1} s later the state is {left:.1e} from the upright one.",
         SECONDS as f64 - time
@@ -106,13 +108,6 @@ impl Catch {
         let x: SVector<f64, 4> = self.feedback.deviation(&CartPole, state);
         x.dot(&(self.cost * x))
     }
-}
-
-/// The same state, whole turns of the pole taken out.
-fn nearest(state: &State<f64, 2, 2>) -> State<f64, 2, 2> {
-    let State { mut q, v } = *state;
-    q[1] -= TAU * (q[1] / TAU).round();
-    State { q, v }
 }
 
 /// The energy of the pole alone, as if the cart stood, less what it has upright at rest.

@@ -103,3 +103,29 @@ fn a_flight_becomes_charts_and_a_film() -> Result<(), Box<dyn std::error::Error>
     assert_eq!(html, seen.film().tracing("tip").html()?);
     Ok(())
 }
+
+/// Where the input is known, what it did is told from the error; where it is not, nothing is called an error.
+#[test]
+fn the_energy_of_a_driven_robot_is_accounted_for() -> Result<(), Box<dyn std::error::Error>> {
+    let robot = Floating { m: 2.0 };
+    let lift =
+        |time: f64, _: &State<f64, 9, 8>| SVector::from_fn(|k, _| if k > 5 { time.sin() } else { 0.0 });
+    let mut flight = Simulation::new(&robot, State::rest(robot.neutral()), 1e-2)?.with_input(lift);
+    let (mut knowing, mut watching) = (Recording::of(&robot), Recording::of(&robot));
+    knowing.see(&flight.sample());
+    watching.see(&flight.sample());
+    for _ in 0..50 {
+        let sample = flight.step()?;
+        knowing.see_under(&sample, lift);
+        watching.see(&sample);
+    }
+    let accounts = ["work of the motors", "error of the energy"];
+    let drawn = |seen: &Recording<'_, _, 9, 8>| seen.figure("A flight").svg();
+    let (known, unknown) = (drawn(&knowing)?, drawn(&watching)?);
+    assert!(accounts.iter().all(|text| known.contains(text)), "the work is drawn");
+    assert!(!accounts.iter().any(|text| unknown.contains(text)) && unknown.contains("change of the energy"));
+    // One moment of which the input is not known, and the account has a hole.
+    knowing.see(&flight.step()?);
+    assert!(!drawn(&knowing)?.contains("work of the motors"));
+    Ok(())
+}
