@@ -170,6 +170,9 @@ where
     /// function at eight moments of each step, and by which way it turns there: twice within an eighth is seen, and
     /// not more. The time is exact to rounding, on the step's polynomial.
     ///
+    /// Events of several kinds are an array of references: `&[&limit as &dyn Event<_, _, 2, 2>, &floor]`, with `NQ` and
+    /// `NV` of the robot.
+    ///
     /// # Errors
     ///
     /// As [`advance_to`](Self::advance_to); [`Error::NotFinite`] of `event` if a function is no number.
