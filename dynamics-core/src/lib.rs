@@ -34,7 +34,7 @@
 //! | | |
 //! |---|---|
 //! | `derive` (default) | the derive macro `Dynamics` |
-//! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like. [Recorded motions][Trajectory], which have a heap |
+//! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like. [Recorded motions][Trajectory] and [flows](simulate::Flow) of any size, which have a heap |
 //! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
 //! | `simd` | [lanes]: `f64x4`, `f64x8`, `f32x8`, `f32x16` as scalars; [batches][batch] of states from slices |
 //! | `rayon` | batches over all cores; implies `simd` and `std`, has a heap, and panics if threads cannot be started |

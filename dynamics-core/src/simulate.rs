@@ -7,6 +7,8 @@ mod dopri5;
 mod euler;
 mod event;
 mod flow;
+#[cfg(feature = "std")]
+mod heap;
 mod integrator;
 mod locate;
 mod march;

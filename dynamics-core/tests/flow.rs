@@ -41,6 +41,9 @@ fn push<const NQ: usize, const NV: usize>(time: f64, state: &State<f64, NQ, NV>)
     SVector::from_fn(|k, _| (time + k as f64).sin() - 0.1 * state.v[k])
 }
 
+/// Position and velocity without sizes.
+type Place = (Vec<f64>, Vec<f64>);
+
 /// The states of a robot, and those of the same without sizes, to the last bit.
 fn agree<R, const NQ: usize, const NV: usize>(robot: &R, start: State<f64, NQ, NV>)
 where
@@ -49,11 +52,11 @@ where
     const STEP: f64 = 1.0 / 64.0; // whose sums are exact
     let place = || (start.q.as_slice().to_vec(), start.v.as_slice().to_vec());
     let mut flow = Sizeless::<R, NQ, NV>(robot);
-    let by = |method: &dyn Fn(&mut Sizeless<'_, R, NQ, NV>, f64, &(Vec<f64>, Vec<f64>)) -> _| {
+    let by = |method: &dyn Fn(&mut Sizeless<'_, R, NQ, NV>, f64, &Place) -> Place| {
         let mut flow = Sizeless(robot);
         (0..100).fold(place(), |place, k| method(&mut flow, STEP * f64::from(k), &place))
     };
-    let same = |state: &State<f64, NQ, NV>, (q, v): &(Vec<f64>, Vec<f64>)| {
+    let same = |state: &State<f64, NQ, NV>, (q, v): &Place| {
         assert_eq!((state.q.as_slice(), state.v.as_slice()), (&q[..], &v[..]));
     };
     let mut simulation = Simulation::new(robot, start, STEP).expect("valid").with_input(push);

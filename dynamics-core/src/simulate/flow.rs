@@ -122,15 +122,14 @@ impl<T: Scalar, const N: usize> Vector<T> for SVector<T, N> {
     fn entries_mut(&mut self) -> &mut [T] {
         self.data.as_mut_slice()
     }
-}
-
-#[cfg(feature = "std")]
-impl<T: Scalar> Vector<T> for std::vec::Vec<T> {
-    fn entries(&self) -> &[T] {
-        self
+    // The same, entry by entry: in registers and not in memory.
+    #[inline(always)]
+    fn times(&self, part: T) -> Self {
+        self.map(|entry| entry * part)
     }
-    fn entries_mut(&mut self) -> &mut [T] {
-        self
+    #[inline(always)]
+    fn plus(self, part: T, y: &Self) -> Self {
+        self.zip_map(y, |entry, y| y.mul_add(part, entry))
     }
 }
 

@@ -1,6 +1,6 @@
 //! A motion that was recorded: states at times, and between them.
 //!
-//! The one part of the run time that has a heap, and so behind the feature `std`.
+//! It is kept on the heap, and so is behind the feature `std`.
 
 use std::vec::Vec;
 
