@@ -56,10 +56,15 @@ impl Ticks {
     pub(crate) fn within([low, high]: [f64; 2], wanted: f64) -> Self {
         let rough = (high - low) / wanted.max(1.0);
         let decade = 10_f64.powi(rough.log10().floor() as i32);
-        let step = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * decade);
-        let step = step.into_iter().find(|step| *step >= 0.75 * rough).unwrap_or(rough);
+        let steps = [10.0, 5.0, 2.0, 1.0, 0.5].map(|factor| factor * decade);
         // Multiples are counted: adding the step would add its rounding.
-        let (first, last) = ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+        let ends = |step: f64| ((low / step - 1e-9).ceil(), (high / step + 1e-9).floor());
+        // One tick is no scale: then the next finer step.
+        let chosen = steps.iter().rposition(|step| *step >= 0.75 * rough).unwrap_or(0);
+        let has_two = |step: f64| ends(step).0 < ends(step).1;
+        let step =
+            if has_two(steps[chosen]) { steps[chosen] } else { steps[(chosen + 1).min(steps.len() - 1)] };
+        let (first, last) = ends(step);
         let count = (last - first).clamp(0.0, 1000.0) as u32;
         let values: Vec<f64> = (0..=count).map(|k| (first + f64::from(k)) * step).collect();
 
@@ -91,6 +96,7 @@ mod tests {
         let ticks = Ticks::within([-0.93, 1.04], 5.0);
         assert_eq!(ticks.labels, ["−0.5", "0.0", "0.5", "1.0"]);
         assert_eq!(Ticks::within([0.0, 10.0], 5.0).labels, ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(Ticks::within([-4.4, 4.2], 3.0).labels, ["−4", "−2", "0", "2", "4"], "not zero alone");
         assert_eq!(Ticks::within([0.0, 0.3], 3.0).labels, ["0.0", "0.1", "0.2", "0.3"]);
     }
 
@@ -109,8 +115,12 @@ mod tests {
     fn no_interval_is_without_ticks() {
         for exponent in -90..=100 {
             let size = 10_f64.powi(exponent);
-            for interval in [[-size, size], [0.0, 0.37 * size], [0.91 * size, 1.03 * size]] {
-                let ticks = Ticks::within(range(interval.into_iter()), 5.0);
+            let intervals =
+                [[-size, size], [0.0, 0.37 * size], [0.91 * size, 1.03 * size], [-0.41 * size, 0.37 * size]];
+            for (interval, wanted) in
+                intervals.into_iter().flat_map(|interval| [(interval, 5.0), (interval, 3.0)])
+            {
+                let ticks = Ticks::within(range(interval.into_iter()), wanted);
                 assert!((2..=12).contains(&ticks.values.len()), "{interval:?}: {ticks:?}");
                 let mut labels = ticks.labels.clone();
                 labels.dedup();

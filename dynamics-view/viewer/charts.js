@@ -1,9 +1,13 @@
 // The charts: drawn once, with a cursor over them.
 function niceTicks(low, high, wanted) {
   const rough = (high - low) / Math.max(wanted, 1), decade = 10 ** Math.floor(Math.log10(rough));
-  const step = decade * ([1, 2, 5].find((k) => k * decade >= 0.75 * rough) || 10);
+  const steps = [0.5, 1, 2, 5, 10].map((k) => k * decade);
+  const ends = (step) => [Math.ceil(low / step - 1e-9), Math.floor(high / step + 1e-9)];
+  // One tick is no scale: then the next finer step.
+  const chosen = steps.findIndex((step) => step >= 0.75 * rough), [from, to] = ends(steps[chosen]);
+  const step = steps[from < to ? chosen : Math.max(chosen - 1, 0)], [first, last] = ends(step);
   const ticks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k <= high / step + 1e-9; k++) ticks.push(k * step);
+  for (let k = first; k <= last; k++) ticks.push(k * step);
   return { ticks, step };
 }
 const superscript = (n) => String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
