@@ -60,6 +60,14 @@ pub struct Puma560;
 #[body(link7, mass = 1.2, com = [0, 0, 0.02], inertia = diag(0.001, 0.001, 0.001))]
 pub struct Iiwa14;
 
+/// A leg of a URDF, with what that does not say: the motors, and a spring beside the knee's.
+#[derive(Dynamics)]
+#[dynamics(urdf = "leg.urdf")]
+#[joint(roll, rotor = 2e-5, gear = 9)]
+#[joint(pitch, rotor = 2e-5, gear = 9)]
+#[joint(knee, rotor = 2e-5, gear = 9, stiffness = 4, rest = 60deg)]
+pub struct Leg;
+
 impl<T: Scalar> RoboJudge<T> {
     /// With the numbers of the example.
     #[rustfmt::skip]

@@ -24,7 +24,6 @@ use firmware_control::trial;
 use crate::agreement::{Agreement, TOLERANCE, agreements};
 use crate::cargo::{Profile, Target, build, refuses_panics, root, rustc};
 use crate::elf::{Forbidden, Program};
-use crate::gains::RICCATI;
 use crate::measure::measure;
 use crate::qemu::Machine;
 use crate::table::{Column, differences, missed, table};
@@ -77,13 +76,7 @@ fn check(mode: Mode) -> Result<Vec<String>> {
         }
     }
     let mut mistakes = vec![];
-    let regulators = gains::regulators()?;
-    let residual = regulators.iter().map(|regulator| regulator.residual()).fold(0.0, f64::max);
-    if residual > RICCATI {
-        mistakes
-            .push(format!("the gains miss the Riccati equation by {residual:.1e}, {RICCATI:.0e} is allowed"));
-    }
-    let gains = gains::source(&regulators);
+    let gains = gains::source()?;
     let gains_path = Path::new("control/src/gains.rs");
     compare(Mode::Compare, gains_path, &gains, &mut mistakes)?;
     if !mistakes.is_empty() {

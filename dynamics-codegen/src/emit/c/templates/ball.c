@@ -14,16 +14,14 @@ static REAL PREFIX_dot(const REAL a[3], const REAL b[3])
     return (a[2] * b[2]) + ((a[1] * b[1]) + (a[0] * b[0]));
 }
 
-static PREFIX_turn PREFIX_turn_by(const REAL delta[3])
+static void PREFIX_turn_by(const REAL delta[3], PREFIX_turn *turn)
 {
-    PREFIX_turn turn;
-    turn.angle = UPPER_SQRT(PREFIX_dot(delta, delta) + (REAL)1e-16);
-    UPPER_SIN_COS(turn.angle * (REAL)0.5, &turn.half_sine, &turn.half_cosine);
-    const REAL factor = (REAL)1.0 / turn.angle;
+    turn->angle = UPPER_SQRT(PREFIX_dot(delta, delta) + (REAL)1e-16);
+    UPPER_SIN_COS(turn->angle * (REAL)0.5, &turn->half_sine, &turn->half_cosine);
+    const REAL factor = (REAL)1.0 / turn->angle;
     for (int k = 0; k < 3; ++k) {
-        turn.axis[k] = delta[k] * factor;
+        turn->axis[k] = delta[k] * factor;
     }
-    return turn;
 }
 
 static void PREFIX_product(const REAL p[4], const REAL q[4], REAL r[4])
@@ -45,9 +43,10 @@ static void PREFIX_conjugate(const REAL q[4], REAL r[4])
 /* q exp(delta), of unit length: delta in rad, in the axes of the body. One Newton step towards length 1 follows. */
 static void PREFIX_integrate_ball(const REAL q[4], const REAL delta[3], REAL moved[4])
 {
-    const PREFIX_turn turn = PREFIX_turn_by(delta);
+    PREFIX_turn turn;
     REAL by[4];
     REAL r[4];
+    PREFIX_turn_by(delta, &turn);
     for (int k = 0; k < 3; ++k) {
         by[k] = turn.axis[k] * turn.half_sine;
     }
@@ -68,12 +67,12 @@ static REAL PREFIX_arctangent(REAL z)
     sum = (sum * z) + (REAL)-4.976877994615932e-2;
     sum = (sum * z) + (REAL)5.8335701337905735e-2;
     sum = (sum * z) + (REAL)-6.661073137387531e-2;
-    sum = (sum * z) + (REAL)7.691876205044830e-2;
+    sum = (sum * z) + (REAL)7.69187620504483e-2;
     sum = (sum * z) + (REAL)-9.090887133436507e-2;
-    sum = (sum * z) + (REAL)1.111111040546235600e-1;
+    sum = (sum * z) + (REAL)1.1111110405462356e-1;
     sum = (sum * z) + (REAL)-1.4285714272503466e-1;
     sum = (sum * z) + (REAL)1.9999999999876483e-1;
-    sum = (sum * z) + (REAL)-3.333333333332930e-1;
+    sum = (sum * z) + (REAL)-3.333333333333293e-1;
     return (sum * z) + (REAL)1.0;
 }
 

@@ -23,10 +23,11 @@ static void PREFIX_rotated(const REAL q[4], const REAL x[3], REAL y[3])
 /* The same of a body with a position, by a screw in m and rad. */
 static void PREFIX_integrate_free(const REAL q[7], const REAL delta[6], REAL moved[7])
 {
-    const PREFIX_turn turn = PREFIX_turn_by(&delta[3]);
+    PREFIX_turn turn;
     REAL across[3];
     REAL by[3];
     REAL way[3];
+    PREFIX_turn_by(&delta[3], &turn);
     const REAL two_s = turn.half_sine + turn.half_sine;
     const REAL sinc = two_s * turn.half_cosine / turn.angle;
     const REAL along = ((REAL)1.0 - sinc) * PREFIX_dot(turn.axis, delta);
@@ -45,6 +46,7 @@ static void PREFIX_integrate_free(const REAL q[7], const REAL delta[6], REAL mov
 /* The shortest screw from q0 to q1, in m and rad. */
 static void PREFIX_difference_free(const REAL q0[7], const REAL q1[7], REAL delta[6])
 {
+    PREFIX_turn turn;
     REAL back[4];
     REAL way[3];
     REAL moved[3];
@@ -57,7 +59,7 @@ static void PREFIX_difference_free(const REAL q0[7], const REAL q1[7], REAL delt
     PREFIX_conjugate(&q0[3], back);
     PREFIX_rotated(back, way, moved);
     PREFIX_difference_ball(&q0[3], &q1[3], &delta[3]);
-    const PREFIX_turn turn = PREFIX_turn_by(&delta[3]);
+    PREFIX_turn_by(&delta[3], &turn);
     const REAL shrink = (REAL)1.0 - ((REAL)0.5 * turn.angle * turn.half_cosine / turn.half_sine);
     PREFIX_cross(&delta[3], moved, across);
     PREFIX_cross(turn.axis, moved, inwards);
