@@ -454,10 +454,11 @@ fn the_zoo_in_double_computes_the_bits_of_the_interpreter() {
     for entry in zoo::all() {
         let Some(Forms { robot, .. }) = &entry.double else { continue };
         let frames = frames(&**robot);
-        let how = ["-O0", "-DBOT_SIN_COS=library", "-Wno-missing-prototypes", "-include", "library.h"];
+        let how = ["-O0", "-DBOT_HOOKS=\"library.h\""];
         std::fs::write(
             folder(&format!("{}_double{}", entry.name, how.concat())).join("library.h"),
-            "void library(double x, double *sine, double *cosine);\n",
+            "void library(double x, double *sine, double *cosine);\n\
+             #define BOT_SIN_COS(x, sine, cosine) library((x), (sine), (cosine))\n",
         )
         .unwrap();
         let found = run(&entry, &frames, &narrowed::<f64>(&entry), &how);
@@ -537,8 +538,9 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
     let linkers = Command::new("find").args([sysroot.trim(), "-path", "*gcc-ld/ld.lld"]).output().unwrap();
     let linkers = String::from_utf8(linkers.stdout).unwrap();
     let linker = format!("--ld-path={}", linkers.lines().next().expect("Rust brings a linker"));
-    let sources = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/c99");
+    let sources = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples/firmware/c");
     let (board, script) = (format!("{sources}/board.c"), format!("-Wl,-T,{sources}/board.ld"));
+    let include = format!("-I{sources}");
     let for_board = [
         "--target=thumbv7em-none-eabihf",
         "-mcpu=cortex-m4",
@@ -551,6 +553,7 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
         "-DBOARD",
         "-DBOT_SQRT=__builtin_sqrtf",
         &board,
+        &include,
         &linker,
         &script,
     ];
