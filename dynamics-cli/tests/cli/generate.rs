@@ -91,7 +91,20 @@ fn only_some_outputs_are_written() {
     let out = folder.to_str().unwrap();
     let outputs = "inverse_dynamics,forward_dynamics_derivatives";
     let file = model("hyq");
-    let c = ["generate", &file, "--base", "free", "--lang", "c", "--name", "dog", "--outputs", outputs, "-o", out];
+    let c = [
+        "generate",
+        &file,
+        "--base",
+        "free",
+        "--lang",
+        "c",
+        "--name",
+        "dog",
+        "--outputs",
+        outputs,
+        "-o",
+        out,
+    ];
     assert_eq!(dynamics(&c).ok(), "");
     let header = std::fs::read_to_string(folder.join("dog.h")).unwrap();
     assert!(header.contains(&format!(" --outputs '{outputs}'\n")), "{header}");

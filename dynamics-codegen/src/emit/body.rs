@@ -267,7 +267,8 @@ impl<'a> Writer<'a> {
         let is_negative = a.negative != b.negative;
         let positive = |operand| Operand { negative: false, ..operand };
         let (a, b) = (self.operand(positive(a)), self.operand(positive(b)));
-        let text = sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product, self.language.sums());
+        let text =
+            sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product, self.language.sums());
         Text { binding: Binding::MultiplyAdd, ..text }
     }
 

@@ -47,8 +47,11 @@ pub(super) fn has_quaternions(input: &Input<'_, '_>) -> bool {
 pub(super) fn functions(input: &Input<'_, '_>, robot: &Robot) -> String {
     let context = Context::of(input, robot);
     let (zero, one) = (context.number(0.0), context.number(1.0));
-    let mut text =
-        format!("{}\n{{\n{}", neutral(robot, input.real), each(&robot.size("NQ"), &format!("q[k] = {zero};")));
+    let mut text = format!(
+        "{}\n{{\n{}",
+        neutral(robot, input.real),
+        each(&robot.size("NQ"), &format!("q[k] = {zero};"))
+    );
     for first in input.model.tree.quaternions() {
         let _ = writeln!(text, "    q[{}] = {one};", first + 3);
     }

@@ -92,7 +92,12 @@ impl Function {
 fn bundle<'a, 'g>(method: Method, input: &'a Input<'_, 'g>) -> Option<&'a CompiledMethod<'g>> {
     let is_bundle = |other: &&CompiledMethod<'_>| other.method == Method::ForwardDynamicsWithDerivatives;
     let wants = method == Method::ForwardDynamicsDerivatives;
-    input.compiled.methods.iter().find(is_bundle).filter(|bundle| wants && !matches!(bundle.plan, Plan::Table { .. }))
+    input
+        .compiled
+        .methods
+        .iter()
+        .find(is_bundle)
+        .filter(|bundle| wants && !matches!(bundle.plan, Plan::Table { .. }))
 }
 
 fn output(method: Method, block: &Block<'_>) -> Output {

@@ -1,4 +1,4 @@
-//! The robots, each as on its page among the examples.
+//! The robots, each as on its page among the examples, and a leg.
 #![allow(missing_docs, reason = "fields are the symbols of the lecture; joints and bodies have their names")]
 
 use dynamics_core::prelude::*;

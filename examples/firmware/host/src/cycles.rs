@@ -36,8 +36,12 @@ pub(crate) fn cycles(timing: Timing, before: Option<Timing>) -> u32 {
     let makes_address = matches!(timing.kind, Kind::Memory | Kind::Move { makes_address: true, .. });
     let waits_for_address = makes_address && matches!(before, Some(Kind::Core | Kind::Memory));
     let waits_for_result = match (before, timing.kind) {
-        (Some(Kind::Arithmetic { result, .. }), Kind::Arithmetic { operands, .. }) => operands.contains(&result),
-        (Some(Kind::Arithmetic { result, .. }), Kind::Move { source, .. }) => source.is_none_or(|s| s == result),
+        (Some(Kind::Arithmetic { result, .. }), Kind::Arithmetic { operands, .. }) => {
+            operands.contains(&result)
+        }
+        (Some(Kind::Arithmetic { result, .. }), Kind::Move { source, .. }) => {
+            source.is_none_or(|s| s == result)
+        }
         _ => false,
     };
     timing.cycles + u32::from(waits_for_address) + u32::from(waits_for_result)
@@ -149,35 +153,35 @@ mod tests {
     #[test]
     fn instructions_take_what_the_manual_says() {
         for (code, cycles) in [
-            (&[0x08, 0x46][..], Some(1)),             // mov r0, r1
-            (&[0x70, 0x47], Some(1 + 3)),             // bx lr
-            (&[0xF0, 0xB5], Some(1 + 5)),             // push {r4-r7, lr}
-            (&[0xF0, 0xBD], Some(2 + 5 + 3)),         // pop {r4-r7, pc}
-            (&[0x08, 0x68], Some(2)),                 // ldr r0, [r1]
-            (&[0x01, 0x48], Some(3)),                 // ldr r0, [pc, #4]
-            (&[0x02, 0xE0], Some(1 + 3)),             // b.n
-            (&[0xFF, 0xF7, 0xFE, 0xFF], Some(1 + 3)), // bl
+            (&[0x08, 0x46][..], Some(1)),                 // mov r0, r1
+            (&[0x70, 0x47], Some(1 + 3)),                 // bx lr
+            (&[0xF0, 0xB5], Some(1 + 5)),                 // push {r4-r7, lr}
+            (&[0xF0, 0xBD], Some(2 + 5 + 3)),             // pop {r4-r7, pc}
+            (&[0x08, 0x68], Some(2)),                     // ldr r0, [r1]
+            (&[0x01, 0x48], Some(3)),                     // ldr r0, [pc, #4]
+            (&[0x02, 0xE0], Some(1 + 3)),                 // b.n
+            (&[0xFF, 0xF7, 0xFE, 0xFF], Some(1 + 3)),     // bl
             (&[0xBD, 0xE8, 0xF0, 0x8F], Some(2 + 9 + 3)), // ldmia.w sp!, {r4-r11, pc}
-            (&[0xD1, 0xE9, 0x00, 0x23], Some(4)),     // ldrd r2, r3, [r1]
-            (&[0x91, 0xFB, 0xF2, 0xF0], Some(12)),    // sdiv r0, r1, r2
-            (&[0x4F, 0xF0, 0x7E, 0x50], Some(1)),     // mov.w r0, #0x3f800000
-            (&[0x30, 0xEE, 0x20, 0x0A], Some(1)),     // vadd.f32 s0, s0, s1
-            (&[0x20, 0xEE, 0x20, 0x0A], Some(1)),     // vmul.f32 s0, s0, s1
-            (&[0x00, 0xEE, 0x20, 0x0A], Some(3)),     // vmla.f32 s0, s0, s1
-            (&[0xA0, 0xEE, 0x20, 0x0A], Some(3)),     // vfma.f32 s0, s0, s1
-            (&[0x80, 0xEE, 0x20, 0x0A], Some(14)),    // vdiv.f32 s0, s0, s1
-            (&[0xB1, 0xEE, 0xC0, 0x0A], Some(14)),    // vsqrt.f32 s0, s0
-            (&[0xB1, 0xEE, 0x40, 0x0A], Some(1)),     // vneg.f32 s0, s0
-            (&[0x90, 0xED, 0x01, 0x0A], Some(2)),     // vldr s0, [r0, #4]
-            (&[0x9F, 0xED, 0x01, 0x0A], Some(3)),     // vldr s0, [pc, #4]
-            (&[0x80, 0xED, 0x01, 0x0A], Some(2)),     // vstr s0, [r0, #4]
-            (&[0x2D, 0xED, 0x04, 0x8B], Some(1 + 4)), // vpush {d8-d9}
-            (&[0xBD, 0xEC, 0x04, 0x8B], Some(2 + 4)), // vpop {d8-d9}
-            (&[0x10, 0xEE, 0x10, 0x0A], Some(2)),     // vmov r0, s0
-            (&[0xF1, 0xEE, 0x10, 0xFA], Some(1)),     // vmrs APSR_nzcv, fpscr
-            (&[0x30, 0xEE, 0x20, 0x0B], None),        // vadd.f64 d0, d0, d16
-            (&[0xD0, 0xE8, 0x01, 0xF0], None),        // tbb [r0, r1]
-            (&[0x18, 0x47], None),                    // bx r3
+            (&[0xD1, 0xE9, 0x00, 0x23], Some(4)),         // ldrd r2, r3, [r1]
+            (&[0x91, 0xFB, 0xF2, 0xF0], Some(12)),        // sdiv r0, r1, r2
+            (&[0x4F, 0xF0, 0x7E, 0x50], Some(1)),         // mov.w r0, #0x3f800000
+            (&[0x30, 0xEE, 0x20, 0x0A], Some(1)),         // vadd.f32 s0, s0, s1
+            (&[0x20, 0xEE, 0x20, 0x0A], Some(1)),         // vmul.f32 s0, s0, s1
+            (&[0x00, 0xEE, 0x20, 0x0A], Some(3)),         // vmla.f32 s0, s0, s1
+            (&[0xA0, 0xEE, 0x20, 0x0A], Some(3)),         // vfma.f32 s0, s0, s1
+            (&[0x80, 0xEE, 0x20, 0x0A], Some(14)),        // vdiv.f32 s0, s0, s1
+            (&[0xB1, 0xEE, 0xC0, 0x0A], Some(14)),        // vsqrt.f32 s0, s0
+            (&[0xB1, 0xEE, 0x40, 0x0A], Some(1)),         // vneg.f32 s0, s0
+            (&[0x90, 0xED, 0x01, 0x0A], Some(2)),         // vldr s0, [r0, #4]
+            (&[0x9F, 0xED, 0x01, 0x0A], Some(3)),         // vldr s0, [pc, #4]
+            (&[0x80, 0xED, 0x01, 0x0A], Some(2)),         // vstr s0, [r0, #4]
+            (&[0x2D, 0xED, 0x04, 0x8B], Some(1 + 4)),     // vpush {d8-d9}
+            (&[0xBD, 0xEC, 0x04, 0x8B], Some(2 + 4)),     // vpop {d8-d9}
+            (&[0x10, 0xEE, 0x10, 0x0A], Some(2)),         // vmov r0, s0
+            (&[0xF1, 0xEE, 0x10, 0xFA], Some(1)),         // vmrs APSR_nzcv, fpscr
+            (&[0x30, 0xEE, 0x20, 0x0B], None),            // vadd.f64 d0, d0, d16
+            (&[0xD0, 0xE8, 0x01, 0xF0], None),            // tbb [r0, r1]
+            (&[0x18, 0x47], None),                        // bx r3
         ] {
             assert_eq!(timing(code).map(|timing| cycles_alone(timing)), cycles, "{code:02x?}");
         }

@@ -177,7 +177,13 @@ fn promises(target: Target, profile: Profile, torques: &str, mistakes: &mut Vec<
 }
 
 /// Looks at what was linked, for what must not be there.
-fn absent(folder: &Path, program: &str, what: &str, no_panics: bool, mistakes: &mut Vec<String>) -> Result<()> {
+fn absent(
+    folder: &Path,
+    program: &str,
+    what: &str,
+    no_panics: bool,
+    mistakes: &mut Vec<String>,
+) -> Result<()> {
     let elf = Program::read(&folder.join(program))?;
     let forbidden = elf.forbidden();
     let found = forbidden.iter().filter(|(what, _)| no_panics || *what != Forbidden::Panic);

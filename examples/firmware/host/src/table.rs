@@ -6,7 +6,8 @@ use std::fmt::Write as _;
 use crate::measure::Cost;
 
 /// The robots, in the order of the table: modules of the program `methods`.
-const ROBOTS: [&str; 7] = ["scalar", "robojudge", "robojudge_prepared", "cart_pole", "leg", "puma560", "iiwa14"];
+const ROBOTS: [&str; 7] =
+    ["scalar", "robojudge", "robojudge_prepared", "cart_pole", "leg", "puma560", "iiwa14"];
 
 /// The methods and the laws, in the order of the table.
 pub(crate) const METHODS: [&str; 13] = [
@@ -69,7 +70,8 @@ pub(crate) fn table(compilers: &str, columns: &[Column]) -> String {
     text.push('\n');
     for (robot, method) in ROBOTS.iter().flat_map(|robot| METHODS.iter().map(move |method| (robot, method))) {
         let name = format!("{robot}::{method}");
-        let cells: Vec<_> = columns.iter().map(|column| (column.costs.get(&name), column.has_cycles)).collect();
+        let cells: Vec<_> =
+            columns.iter().map(|column| (column.costs.get(&name), column.has_cycles)).collect();
         if cells.iter().all(|(cost, _)| cost.is_none()) {
             continue;
         }
