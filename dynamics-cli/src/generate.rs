@@ -32,6 +32,10 @@ pub(crate) struct Args {
     #[arg(long)]
     name: Option<String>,
 
+    /// The methods to write, with commas between them, as in `#[dynamics(outputs(…))]`; without it, all
+    #[arg(long, value_name = "METHODS")]
+    outputs: Option<String>,
+
     /// The file to write; without it, standard output. In C the folder for NAME.h and NAME.c; without it, this one
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -62,7 +66,8 @@ Examples:
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs --check
   dynamics generate dog.urdf --lang rust --base free --joint 'knee, rotor = 5e-5, gear = 100'
-  dynamics generate arm.urdf --lang c --scalar float --name arm -o firmware/src";
+  dynamics generate arm.urdf --lang c --scalar float --name arm -o firmware/src
+  dynamics generate arm.urdf --lang c --outputs inverse_dynamics,pose -o firmware/src";
 
 /// A file of code.
 struct File {
@@ -78,7 +83,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         return Err(Failure::CommandLine(problem.help("name the file by `-o`").into()));
     }
     let given = args.name.as_deref().map(|name| checked(name, args.lang)).transpose()?;
-    let input = args.input.read()?;
+    let input = args.input.read_with(|attributes| {
+        if let Some(outputs) = &args.outputs {
+            attributes.add("outputs", "#[dynamics(outputs(", outputs, "))]");
+        }
+    })?;
     let name = match given {
         Some(name) => name.to_owned(),
         None => name_in_file(&input, args.lang)?,

@@ -73,13 +73,20 @@ pub(crate) struct Input {
 impl InputArgs {
     /// Reads the file.
     pub(crate) fn read(&self) -> Result<Input, Failure> {
+        self.read_with(|_| {})
+    }
+
+    /// Reads the file for a command that has more attributes than the options of all commands.
+    pub(crate) fn read_with(&self, add: impl FnOnce(&mut Attributes)) -> Result<Input, Failure> {
         let bytes = bytes_of(&self.file)?;
         let name = name_of(&self.file);
         if bytes.len() > SIZE_LIMIT {
             let message = format!("{name} has more than {SIZE_LIMIT} bytes");
             return Err(Problem::new(message).help(Code::FileTooLarge.help()).into());
         }
-        let attributes = self.attributes().checked()?;
+        let mut attributes = self.attributes();
+        add(&mut attributes);
+        let attributes = attributes.checked()?;
         let mut diags = Diagnostics::new();
         match diags.keep(text_of(&name, &bytes).map(str::to_owned)) {
             Some(text) => Ok(Input { name, text, attributes }),

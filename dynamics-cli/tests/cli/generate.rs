@@ -84,6 +84,52 @@ fn options_are_attributes() {
     assert!(head.contains(again), "{head}");
 }
 
+/// What is asked for is there with what it calls, and nothing else.
+#[test]
+fn only_some_outputs_are_written() {
+    let folder = folder("outputs");
+    let out = folder.to_str().unwrap();
+    let outputs = "inverse_dynamics,forward_dynamics_derivatives";
+    let file = model("hyq");
+    let c = [
+        "generate",
+        &file,
+        "--base",
+        "free",
+        "--lang",
+        "c",
+        "--name",
+        "dog",
+        "--outputs",
+        outputs,
+        "-o",
+        out,
+    ];
+    assert_eq!(dynamics(&c).ok(), "");
+    let header = std::fs::read_to_string(folder.join("dog.h")).unwrap();
+    assert!(header.contains(&format!(" --outputs '{outputs}'\n")), "{header}");
+    let declared = header.lines().filter_map(|line| line.strip_prefix("void dog_")?.split('(').next());
+    let declared: Vec<&str> = declared.collect();
+    let called = ["forward_dynamics", "inverse_derivatives"]; // by the loops of a robot of this size
+    let mut expected = vec!["neutral", "integrate", "difference", "inverse_dynamics", "forward_derivatives"];
+    expected.extend(called);
+    expected.sort_unstable();
+    let mut sorted = declared.clone();
+    sorted.sort_unstable();
+    assert_eq!(sorted, expected);
+    let compiled = Command::new("cc")
+        .current_dir(&folder)
+        .args(["-std=c99", "-Wall", "-Wextra", "-Werror", "-c", "dog.c"])
+        .output();
+    let compiled = compiled.unwrap();
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+
+    let rust = dynamics(&["generate", &file, "--lang", "rust", "--outputs", "gravity_forces"]).ok();
+    assert!(rust.contains("fn gravity_forces<") && !rust.contains("fn bias_forces<"));
+    let complaint = dynamics(&["generate", &file, "--lang", "c", "--outputs", "inverse_dynamic"]).failed(1);
+    assert!(complaint.contains("did you mean `inverse_dynamics`?"), "{complaint}");
+}
+
 #[test]
 fn a_file_says_where_it_is_from() {
     let text = dynamics(&["generate", &model("cartpole"), "--lang", "rust", "--snap", "off"]).ok();

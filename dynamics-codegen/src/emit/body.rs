@@ -39,8 +39,8 @@ pub(super) trait Language {
     /// `√a`
     fn square_root(&self, a: &str) -> String;
 
-    /// Whether `a + (b + c)` is written without parentheses, and so is another sum to the last bit.
-    fn regroups_sums(&self) -> bool;
+    /// How a sum is written.
+    fn sums(&self) -> Sums;
 
     /// The statements, a line each, indented by `indent` levels; `needed` are those that the results read.
     fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String;
@@ -77,6 +77,15 @@ pub(super) enum Binding {
     Product,
     Negation,
     Atom,
+}
+
+/// How sums are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Sums {
+    /// `a + (b + c)` without parentheses, and so another sum to the last bit.
+    Regrouped,
+    /// In parentheses wherever the order of operations does not go by sums alone: `(a * b) + c`, `a + (b + c)`.
+    Explicit,
 }
 
 /// Names for a value.
@@ -230,8 +239,7 @@ impl<'a> Writer<'a> {
         match operation {
             Operation::Add(a, b) => {
                 let (a, b) = (self.term(a), self.term(b));
-                let added = if self.language.regroups_sums() { Binding::Sum } else { Binding::Product };
-                sum(a, b, added)
+                sum(a, b, Binding::Sum, self.language.sums())
             }
             Operation::Mul(a, b) => {
                 let (a, b) = (self.operand(a), self.operand(b));
@@ -259,7 +267,8 @@ impl<'a> Writer<'a> {
         let is_negative = a.negative != b.negative;
         let positive = |operand| Operand { negative: false, ..operand };
         let (a, b) = (self.operand(positive(a)), self.operand(positive(b)));
-        let text = sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product);
+        let text =
+            sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product, self.language.sums());
         Text { binding: Binding::MultiplyAdd, ..text }
     }
 
@@ -353,11 +362,16 @@ fn join(parts: &[&Text], text: String, binding: Binding) -> Text {
     Text { text, binding, depth, reads }
 }
 
-/// `a + b`, each with whether it is taken off; what is added binds at least as `added`.
-fn sum(a: (bool, Text), b: (bool, Text), added: Binding) -> Text {
+/// `a + b`, each with whether it is taken off; what is added binds at least as `added`, unless sums are explicit.
+fn sum(a: (bool, Text), b: (bool, Text), added: Binding, sums: Sums) -> Text {
     let ((is_negative, left), (minus, right)) = if a.0 && !b.0 { (b, a) } else { (a, b) };
     let left = if is_negative { negated(left) } else { left };
-    let right = wrap(right, if minus { Binding::Product } else { added });
+    let (left, least) = match sums {
+        Sums::Regrouped => (left, if minus { Binding::Product } else { added }),
+        Sums::Explicit if left.binding == Binding::Product => (wrap(left, Binding::Atom), Binding::Negation),
+        Sums::Explicit => (left, Binding::Negation),
+    };
+    let right = wrap(right, least);
     let sign = if minus { '-' } else { '+' };
     join(&[&left, &right], format!("{} {sign} {}", left.text, right.text), Binding::Sum)
 }

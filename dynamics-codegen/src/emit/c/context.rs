@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::names::{ARGUMENTS, KEYWORDS, Robot};
 use super::{Input, Real};
-use crate::emit::body::{Binding, Language, Named, Statement};
+use crate::emit::body::{Binding, Language, Named, Statement, Sums};
 use crate::emit::names::Names;
 use crate::mechanics::equations::Argument;
 
@@ -58,8 +58,8 @@ impl Language for Context<'_> {
         format!("{}({a})", self.robot.size("SQRT"))
     }
 
-    fn regroups_sums(&self) -> bool {
-        false // what C computes is what the interpreter does, to the last bit
+    fn sums(&self) -> Sums {
+        Sums::Explicit // what C computes is what the interpreter does, to the last bit
     }
 
     fn layout(&self, statements: &[Statement], _: &[usize], indent: usize) -> String {
@@ -76,14 +76,11 @@ impl Language for Context<'_> {
             let _ = match named {
                 Named::Value(name) => writeln!(lines, "{pad}const {real} {name} = {};", value),
                 Named::SinCos(sin, cos) => {
-                    let names: Vec<&str> = sin.iter().chain(cos).map(String::as_str).collect();
+                    for name in sin.iter().chain(cos) {
+                        let _ = writeln!(lines, "{pad}{real} {name};");
+                    }
                     let [sin, cos] = [sin, cos].map(|name| name.as_deref().unwrap_or("ignored"));
-                    writeln!(
-                        lines,
-                        "{pad}{real} {};\n{pad}{}({value}, &{sin}, &{cos});",
-                        names.join(", "),
-                        self.robot.size("SIN_COS")
-                    )
+                    writeln!(lines, "{pad}{}({value}, &{sin}, &{cos});", self.robot.size("SIN_COS"))
                 }
             };
         }

@@ -55,29 +55,49 @@ impl Function {
 
     fn of(compiled: &CompiledMethod<'_>, input: &Input<'_, '_>, robot: &Robot) -> Option<Self> {
         let CompiledMethod { method, plan, cost, .. } = compiled;
-        let (outputs, body) = match plan {
-            Plan::StraightLine { blocks, program } => {
-                let outputs: Vec<Output> = blocks.iter().map(|block| output(*method, block)).collect();
-                let body = straight_line(*method, blocks, &outputs, program, input, robot);
-                (outputs, body)
-            }
+        let (method, mut cost) = (*method, *cost);
+        let outputs: Vec<Output> = match plan {
+            Plan::StraightLine { blocks, .. } => blocks.iter().map(|block| output(method, block)).collect(),
             Plan::Loops { .. } => {
                 let n = input.compiled.inputs.dof;
-                let outputs = loops::outputs(*method).iter().map(|&(name, is_square)| {
+                let outputs = loops::outputs(method).iter().map(|&(name, is_square)| {
                     let shape = if is_square { Shape::Matrix(n, n) } else { Shape::Vector(n) };
                     Output { name, shape }
                 });
-                (outputs.collect(), loops::body(*method, robot, input.real)?)
+                outputs.collect()
             }
             Plan::Table { .. } => return None,
         };
+        let body = match (bundle(method, input), plan) {
+            (Some(bundle), _) => {
+                cost = bundle.cost;
+                loops::forward_derivatives_of_bundle(robot, input.real)
+            }
+            (None, Plan::StraightLine { blocks, program }) => {
+                straight_line(method, blocks, &outputs, program, input, robot)
+            }
+            (None, _) => loops::body(method, robot, input.real)?,
+        };
         Some(Self {
-            comment: function_comment(*method, *cost, input),
-            signature: signature(*method, &outputs, input, robot),
+            comment: function_comment(method, cost, input),
+            signature: signature(method, &outputs, input, robot),
             body,
             has_loops: matches!(plan, Plan::Loops { .. }),
         })
     }
+}
+
+/// What the derivatives of `a` call, so that a program has one body for both: `a` is computed for them anyway, and is N
+/// numbers beside 3·N². Those of `tau` have a body of their own, which does without it.
+fn bundle<'a, 'g>(method: Method, input: &'a Input<'_, 'g>) -> Option<&'a CompiledMethod<'g>> {
+    let is_bundle = |other: &&CompiledMethod<'_>| other.method == Method::ForwardDynamicsWithDerivatives;
+    let wants = method == Method::ForwardDynamicsDerivatives;
+    input
+        .compiled
+        .methods
+        .iter()
+        .find(is_bundle)
+        .filter(|bundle| wants && !matches!(bundle.plan, Plan::Table { .. }))
 }
 
 fn output(method: Method, block: &Block<'_>) -> Output {
@@ -131,14 +151,16 @@ fn signature(method: Method, outputs: &[Output], input: &Input<'_, '_>, robot: &
         let size = if *argument == Argument::Q { "NQ" } else { "NV" };
         arguments.push(format!("const {real} {}[{}]", argument.name(), robot.size(size)));
     }
-    let length = |n: usize| if n == input.compiled.inputs.dof { robot.size("NV") } else { n.to_string() };
+    let (rows_are_speeds, columns_are_speeds) = spans(method);
+    let length = |n: usize, is_of_speeds| if is_of_speeds { robot.size("NV") } else { n.to_string() };
     let mut returned = "void";
     for Output { name, shape } in outputs {
         match *shape {
             Shape::Scalar => returned = real,
-            Shape::Vector(n) => arguments.push(format!("{real} {name}[{}]", length(n))),
+            Shape::Vector(n) => arguments.push(format!("{real} {name}[{}]", length(n, rows_are_speeds))),
             Shape::Matrix(rows, columns) => {
-                arguments.push(format!("{real} {name}[{}][{}]", length(rows), length(columns)));
+                let [rows, columns] = [length(rows, rows_are_speeds), length(columns, columns_are_speeds)];
+                arguments.push(format!("{real} {name}[{rows}][{columns}]"));
             }
         }
     }
@@ -146,6 +168,25 @@ fn signature(method: Method, outputs: &[Output], input: &Input<'_, '_>, robot: &
         arguments.push("void".to_owned());
     }
     format!("{returned} {}({})", robot.function(method), arguments.join(", "))
+}
+
+/// Whether there is a row, and a column, of a method's results for each speed.
+fn spans(method: Method) -> (bool, bool) {
+    match method {
+        Method::Pose(_)
+        | Method::Velocity(_)
+        | Method::Acceleration(_)
+        | Method::CenterOfMass
+        | Method::CentroidalMomentum
+        | Method::InertialParameters
+        | Method::BaseParameters => (false, false),
+        Method::Jacobian(_)
+        | Method::WorldJacobian(_)
+        | Method::CenterOfMassJacobian
+        | Method::CentroidalMomentumMatrix => (false, true),
+        Method::Regressor | Method::BaseRegressor => (true, false),
+        _ => (true, true),
+    }
 }
 
 fn straight_line(

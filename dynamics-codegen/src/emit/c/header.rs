@@ -5,17 +5,20 @@ use std::fmt::Write as _;
 use super::functions::{Function, LeftOut};
 use super::names::Robot;
 use super::words::comment;
-use super::{Input, Real};
+use super::{Input, configuration};
 use crate::model::{JointInfo, Limits, Motion};
 
 const CONVENTIONS: &[&str] = &[
     "M(q) a + C(q,v) v + G(q) + passive forces = tau",
     "",
     "SI units and radians. Gravity is that of the robot's description. Joint forces are positive along",
-    "the axes, so that v^T tau is the power put in. Six-vectors are linear first, then angular. Matrices",
-    "are by rows. A quaternion is i, j, k, w, and of unit length; the velocity of a ball joint is the",
-    "angular velocity of its body in the body's axes, that of a free joint the twist of its body.",
-    "Derivatives by q are by such motions.",
+    "the axes, so that v^T tau is the power put in. Six-vectors are linear first, then angular. A",
+    "quaternion is i, j, k, w, and of unit length; the velocity of a ball joint is the angular velocity of",
+    "its body in the body's axes, that of a free joint the twist of its body. Derivatives by q are by such",
+    "motions.",
+    "",
+    "Matrices are by rows. An entry has the unit of its row over that of its column: M[i][k] and",
+    "dtau_da[i][k] that of tau[i] over that of a[k], dtau_dq[i][k] that of tau[i] over that of q[k].",
     "",
     "Every function is a pure one: it reads its arguments, writes its results, and keeps nothing, so that",
     "it may be interrupted and called from everywhere. Straight lines have no branch but that of the",
@@ -55,9 +58,11 @@ pub(super) fn write(
     let _ = writeln!(
         text,
         "/* Zeros, and quaternions of no rotation. */\n{};\n\n\
-         /* Where q gets to by delta = v dt: a step of time on the configurations. moved may be q. */\n{};\n",
-        neutral(robot, input.real),
-        integrate(robot, input.real)
+         /* Where q gets to by delta = v dt: a step of time on the configurations. moved may be q. */\n{};\n\n\
+         /* The delta by which q0 gets to q1; of orientations the shorter way, up to half a turn. */\n{};\n",
+        configuration::neutral(robot, input.real),
+        configuration::integrate(robot, input.real),
+        configuration::difference(robot, input.real)
     );
     for function in functions {
         let _ = writeln!(text, "{}{};\n", function.comment, function.signature);
@@ -159,13 +164,4 @@ fn ascii(unit: &str) -> String {
 
 pub(super) fn prepare(Robot { prefix, .. }: &Robot) -> String {
     format!("void {prefix}_prepare(const {prefix}_fields *fields, {prefix}_robot *robot)")
-}
-
-pub(super) fn neutral(robot: &Robot, real: Real) -> String {
-    format!("void {}_neutral({} q[{}])", robot.prefix, real.name(), robot.size("NQ"))
-}
-
-pub(super) fn integrate(robot: &Robot, real: Real) -> String {
-    let (prefix, real, nq, nv) = (&robot.prefix, real.name(), robot.size("NQ"), robot.size("NV"));
-    format!("void {prefix}_integrate(const {real} q[{nq}], const {real} delta[{nv}], {real} moved[{nq}])")
 }

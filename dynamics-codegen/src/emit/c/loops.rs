@@ -53,7 +53,7 @@ static void PREFIX_identity(REAL X[N][N])
 {
     for (int i = 0; i < N; ++i) {
         for (int j = 0; j < N; ++j) {
-            X[i][j] = i == j ? ONE : ZERO;
+            X[i][j] = (i == j) ? ONE : ZERO;
         }
     }
 }
@@ -122,16 +122,23 @@ pub(super) fn helpers(robot: &Robot, real: Real) -> String {
 /// The body of a method in the form of loops.
 pub(super) fn body(method: Method, robot: &Robot, real: Real) -> Option<String> {
     let template = match method {
-        Method::InverseMassMatrix => INVERSE,
-        Method::ForwardDynamicsDerivatives => FORWARD_DERIVATIVES,
-        Method::ForwardDynamicsWithDerivatives => FORWARD_WITH_DERIVATIVES,
-        Method::InverseDynamicsWithDerivatives => INVERSE_WITH_DERIVATIVES,
+        Method::InverseMassMatrix => INVERSE.to_owned(),
+        Method::ForwardDynamicsDerivatives => {
+            FORWARD_WITH_DERIVATIVES.replacen("{\n", "{\n    REAL a[N];\n", 1)
+        }
+        Method::ForwardDynamicsWithDerivatives => FORWARD_WITH_DERIVATIVES.to_owned(),
+        Method::InverseDynamicsWithDerivatives => INVERSE_WITH_DERIVATIVES.to_owned(),
         _ => return None,
     };
-    Some(filled(template, robot, real))
+    Some(filled(&template, robot, real))
 }
 
-/// A template with the names of a robot.
+/// The body of the derivatives of `a` where there is a function that gives `a` as well.
+pub(super) fn forward_derivatives_of_bundle(robot: &Robot, real: Real) -> String {
+    filled(FORWARD_DERIVATIVES, robot, real)
+}
+
+/// A template with the names of a robot; `(REAL)` before a number makes a literal of it.
 pub(super) fn filled(template: &str, robot: &Robot, real: Real) -> String {
     let literal = |value: f64| real.literal(value).unwrap_or_default();
     let words = [
@@ -145,5 +152,13 @@ pub(super) fn filled(template: &str, robot: &Robot, real: Real) -> String {
         ("< N;", format!("< {};", robot.size("NV"))),
         ("= N -", format!("= {} -", robot.size("NV"))),
     ];
-    words.iter().fold(template.to_owned(), |text, (word, with)| text.replace(word, with))
+    let mut parts = template.split("(REAL)");
+    let mut text = parts.next().unwrap_or_default().to_owned();
+    for part in parts {
+        let length = part.find(|c: char| !(c.is_ascii_digit() || ".e-".contains(c))).unwrap_or(part.len());
+        let number = part[..length].parse().expect("templates have numbers behind `(REAL)`");
+        text += &literal(number);
+        text += &part[length..];
+    }
+    words.iter().fold(text, |text, (word, with)| text.replace(word, with))
 }

@@ -3,6 +3,7 @@
 //! No heap, no globals, no variable-length arrays, no library but a square root where a robot needs one; matrices by
 //! rows; no identifier longer than the 31 characters that C99 promises to tell apart.
 
+mod configuration;
 mod context;
 mod functions;
 mod header;

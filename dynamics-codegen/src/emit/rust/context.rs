@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::names::CALLED;
-use crate::emit::body::{Binding, Language, Named, Statement, last_readers};
+use crate::emit::body::{Binding, Language, Named, Statement, Sums, last_readers};
 use crate::emit::names::{Names, component};
 use crate::mechanics::equations::Argument;
 use crate::passes::Sizes;
@@ -73,8 +73,8 @@ impl Language for Context<'_> {
         format!("sqrt({a})")
     }
 
-    fn regroups_sums(&self) -> bool {
-        true // fewer parentheses: generated code is read
+    fn sums(&self) -> Sums {
+        Sums::Regrouped // fewer parentheses: generated code is read
     }
 
     fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String {

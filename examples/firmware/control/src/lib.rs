@@ -1,4 +1,4 @@
-//! Four robots under three control laws, at a kilohertz: the same code on a microcontroller and on its host.
+//! Five robots under three control laws, at a kilohertz: the same code on a microcontroller and on its host.
 //!
 //! Nothing here allocates or panics. Over `f32` nothing computes in `f64`: constants are rounded when the code is
 //! compiled.
@@ -8,7 +8,6 @@
 extern crate std;
 
 pub mod gains;
-pub mod laws;
 pub mod report;
 pub mod robots;
 pub mod trial;

@@ -1,4 +1,4 @@
-//! The robots, each as on its page among the examples.
+//! The robots, each as on its page among the examples, and a leg.
 #![allow(missing_docs, reason = "fields are the symbols of the lecture; joints and bodies have their names")]
 
 use dynamics_core::prelude::*;
@@ -59,6 +59,14 @@ pub struct Puma560;
 #[joint(joint7: revolute(z), link6 -> link7, at = [0, 0.081, 0], rpy = [-90deg, 180deg, 0])]
 #[body(link7, mass = 1.2, com = [0, 0, 0.02], inertia = diag(0.001, 0.001, 0.001))]
 pub struct Iiwa14;
+
+/// A leg of a URDF, with what that does not say: the motors, and a spring beside the knee's.
+#[derive(Dynamics)]
+#[dynamics(urdf = "leg.urdf")]
+#[joint(roll, rotor = 2e-5, gear = 9)]
+#[joint(pitch, rotor = 2e-5, gear = 9)]
+#[joint(knee, rotor = 2e-5, gear = 9, stiffness = 4, rest = 60deg)]
+pub struct Leg;
 
 impl<T: Scalar> RoboJudge<T> {
     /// With the numbers of the example.

@@ -6,6 +6,8 @@
 
 mod agreement;
 mod cargo;
+mod clang;
+mod cycles;
 mod elf;
 mod gains;
 mod measure;
@@ -21,10 +23,9 @@ use std::process::ExitCode;
 use firmware_control::report::Printer;
 use firmware_control::trial;
 
-use crate::agreement::{Agreement, TOLERANCE, agreements};
+use crate::agreement::{Agreement, TOLERANCE, agreement_of_c, agreements};
 use crate::cargo::{Profile, Target, build, refuses_panics, root, rustc};
 use crate::elf::{Forbidden, Program};
-use crate::gains::RICCATI;
 use crate::measure::measure;
 use crate::qemu::Machine;
 use crate::table::{Column, differences, missed, table};
@@ -76,14 +77,11 @@ fn check(mode: Mode) -> Result<Vec<String>> {
             ));
         }
     }
-    let mut mistakes = vec![];
-    let regulators = gains::regulators()?;
-    let residual = regulators.iter().map(|regulator| regulator.residual()).fold(0.0, f64::max);
-    if residual > RICCATI {
-        mistakes
-            .push(format!("the gains miss the Riccati equation by {residual:.1e}, {RICCATI:.0e} is allowed"));
+    if !clang::is_there() {
+        return Err("`clang` is not installed: `apt-get install clang`".to_owned());
     }
-    let gains = gains::source(&regulators);
+    let mut mistakes = vec![];
+    let gains = gains::source()?;
     let gains_path = Path::new("control/src/gains.rs");
     compare(Mode::Compare, gains_path, &gains, &mut mistakes)?;
     if !mistakes.is_empty() {
@@ -99,14 +97,9 @@ fn check(mode: Mode) -> Result<Vec<String>> {
     compare(mode, Path::new("expected/torques.txt"), &torques, &mut mistakes)?;
     println!("{torques}");
     println!("Largest error of a torque in single precision, over the largest torque:");
-    for Agreement { robot, law, error } in agreements() {
-        println!("  {robot:12}{law:22}{error:8.1e}");
-        if error.is_nan() || error > TOLERANCE {
-            mistakes.push(format!(
-                "{robot}, {law}: single precision is {error:.1e} off, {TOLERANCE:.0e} are allowed"
-            ));
-        }
-    }
+    agreements().iter().for_each(|agreement| judge(agreement, &mut mistakes));
+    let c = clang::build()?;
+    judge(&agreement_of_c(&qemu::run(Machine::CortexM4, &c.join("control"))?)?, &mut mistakes);
 
     println!("\nEach program: what it prints is what the host computes, and what is not in it.");
     for target in [Target::Arm, Target::RiscV] {
@@ -115,16 +108,33 @@ fn check(mode: Mode) -> Result<Vec<String>> {
         }
     }
 
-    let columns = [
-        column(Machine::CortexM4, Profile::Release)?,
-        column(Machine::CortexM4, Profile::Small)?,
-        column(Machine::RiscV, Profile::Release)?,
-    ];
-    let costs = table(&rustc()?, &columns);
+    for program in ["control", "methods"] {
+        absent(&c, program, "C", true, &mut mistakes)?;
+    }
+
+    let fast = column(Machine::CortexM4, Profile::Release)?;
+    let in_c = Column {
+        title: "Cortex-M4F, in C".to_owned(),
+        has_cycles: true,
+        costs: measure(Machine::CortexM4, &c.join("methods"))?,
+    };
+    mistakes.extend([&fast, &in_c].into_iter().flat_map(missed));
+    let small = column(Machine::CortexM4, Profile::Small)?;
+    let soft = column(Machine::RiscV, Profile::Release)?;
+    let costs = table(&format!("{}, {}", rustc()?, clang::version()?), &[fast, small, in_c, soft]);
     println!("\n{costs}");
-    mistakes.extend(columns.first().into_iter().flat_map(missed));
     compare(mode, Path::new("expected/costs.txt"), &costs, &mut mistakes)?;
     Ok(mistakes)
+}
+
+/// Prints an agreement; a mistake if it is none.
+fn judge(Agreement { robot, law, error }: &Agreement, mistakes: &mut Vec<String>) {
+    println!("  {robot:12}{law:22}{error:8.1e}");
+    if error.is_nan() || *error > TOLERANCE {
+        mistakes.push(format!(
+            "{robot}, {law}: single precision is {error:.1e} off, {TOLERANCE:.0e} are allowed"
+        ));
+    }
 }
 
 /// What the control loop prints, as the host computes it in the firmware's precision.
@@ -159,18 +169,31 @@ fn promises(target: Target, profile: Profile, torques: &str, mistakes: &mut Vec<
         ));
     }
     for program in ["control", "methods"] {
-        let elf = Program::read(&folder.join(program))?;
         // A debug build checks the arithmetic of loops and prints; it may panic, and nothing else of these.
-        let forbidden = elf.forbidden();
-        let found = forbidden.iter().filter(|(what, _)| profile != Profile::Dev || *what != Forbidden::Panic);
-        let found: Vec<_> = found.map(|(what, name)| format!("{what:?}: {name}")).collect();
-        if found.is_empty() {
-            let panics = if profile == Profile::Dev { "" } else { "panic path, " };
-            println!("  {:8} {program}: no {panics}heap, f64 or libm", "");
-        } else {
-            let (triple, profile, found) = (target.triple(), profile.name(), found.join("\n  "));
-            mistakes.push(format!("{program} of {triple}, {profile}, has what it must not have:\n  {found}"));
-        }
+        let what = format!("{}, {}", target.triple(), profile.name());
+        absent(&folder, program, &what, profile != Profile::Dev, mistakes)?;
+    }
+    Ok(())
+}
+
+/// Looks at what was linked, for what must not be there.
+fn absent(
+    folder: &Path,
+    program: &str,
+    what: &str,
+    no_panics: bool,
+    mistakes: &mut Vec<String>,
+) -> Result<()> {
+    let elf = Program::read(&folder.join(program))?;
+    let forbidden = elf.forbidden();
+    let found = forbidden.iter().filter(|(what, _)| no_panics || *what != Forbidden::Panic);
+    let found: Vec<_> = found.map(|(what, name)| format!("{what:?}: {name}")).collect();
+    if found.is_empty() {
+        let panics = if no_panics { "panic path, " } else { "" };
+        println!("  {:8} {program}: no {panics}heap, f64 or libm", if what == "C" { what } else { "" });
+    } else {
+        let found = found.join("\n  ");
+        mistakes.push(format!("{program} of {what} has what it must not have:\n  {found}"));
     }
     Ok(())
 }
@@ -183,7 +206,8 @@ fn column(machine: Machine, profile: Profile) -> Result<Column> {
         Machine::CortexM7 => "Cortex-M7",
         Machine::RiscV => "RV32IMAC",
     };
-    Ok(Column { title: format!("{cpu}, {}", profile.name()), costs })
+    let has_cycles = machine == Machine::CortexM4;
+    Ok(Column { title: format!("{cpu}, {}", profile.name()), has_cycles, costs })
 }
 
 /// The file as it should be, or written so.

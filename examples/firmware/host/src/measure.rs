@@ -5,8 +5,11 @@ use std::path::Path;
 
 use crate::Result;
 use crate::cargo::Target;
+use crate::clang::ROBOTS;
+use crate::cycles::{Timing, cycles, timing};
 use crate::elf::{Function, Program};
 use crate::qemu::{Log, Machine, Moment, trace};
+use crate::table::METHODS;
 use crate::thumb::straight_line;
 
 /// Of one method, over all its calls.
@@ -18,6 +21,8 @@ pub(crate) struct Cost {
     pub(crate) most: usize,
     /// Whether no other number is possible: there is one way through the code, and its length was executed.
     pub(crate) straight: bool,
+    /// The most cycles of a Cortex-M4F, where no other number of instructions is possible.
+    pub(crate) cycles: Option<u32>,
     /// Bytes on the stack, return address and saved registers among them.
     pub(crate) stack: u32,
     /// Bytes of code and constants, of the method and of all that it called.
@@ -51,6 +56,9 @@ struct Call<'p> {
     /// The function that it returns to.
     caller: u32,
     instructions: usize,
+    cycles: Option<u32>,
+    /// What was executed last.
+    timing: Option<Timing>,
     stack_before: u32,
     stack: u32,
     visited: BTreeSet<u32>,
@@ -74,7 +82,9 @@ impl<'p> Calls<'p> {
     }
 
     fn see(&mut self, Moment { pc, sp }: Moment) {
-        let function = self.program.function_at(pc).map_or(0, |function| function.address);
+        let function = self.program.function_at(pc);
+        let code = function.and_then(|function| function.code.get((pc - function.address) as usize..));
+        let function = function.map_or(0, |function| function.address);
         let sp = sp.unwrap_or_default();
         if let Some(call) = self.current.take_if(|call| call.caller == function) {
             self.done.push(call);
@@ -84,11 +94,22 @@ impl<'p> Calls<'p> {
         {
             let visited = BTreeSet::new();
             let caller = self.before;
-            self.current =
-                Some(Call { method, caller, instructions: 0, stack_before: sp, stack: 0, visited });
+            self.current = Some(Call {
+                method,
+                caller,
+                instructions: 0,
+                cycles: Some(0),
+                timing: None,
+                stack_before: sp,
+                stack: 0,
+                visited,
+            });
         }
         if let Some(call) = &mut self.current {
             call.instructions += 1;
+            let now = code.and_then(timing);
+            call.cycles = call.cycles.zip(now).map(|(sum, now)| sum + cycles(now, call.timing));
+            call.timing = now;
             call.stack = call.stack.max(call.stack_before.wrapping_sub(sp));
             call.visited.insert(function);
         }
@@ -98,7 +119,7 @@ impl<'p> Calls<'p> {
     fn costs(self, target: Target) -> Result<BTreeMap<String, Cost>> {
         let mut costs = BTreeMap::<String, Cost>::new();
         for call in &self.done {
-            let name = method_name(call.method).unwrap_or_default().to_owned();
+            let name = method_name(call.method).unwrap_or_default();
             let cost = costs.entry(name).or_insert_with(|| Cost { least: usize::MAX, ..Cost::default() });
             cost.least = cost.least.min(call.instructions);
             cost.most = cost.most.max(call.instructions);
@@ -108,10 +129,11 @@ impl<'p> Calls<'p> {
             let Function { address, code, .. } = call.method;
             let length = || straight_line(*address, code, &|callee| self.program.code_at(callee));
             cost.straight = target == Target::Arm && length() == Some(call.instructions);
+            cost.cycles = call.cycles.filter(|_| cost.straight);
         }
         for method in self.methods.values() {
             let name = method_name(method).unwrap_or_default();
-            if !costs.contains_key(name) {
+            if !costs.contains_key(&name) {
                 return Err(format!("`{name}` was not called"));
             }
         }
@@ -119,8 +141,20 @@ impl<'p> Calls<'p> {
     }
 }
 
-/// `puma560::inverse_dynamics` of `methods::puma560::inverse_dynamics`.
-fn method_name(function: &Function) -> Option<&str> {
-    let name = function.name.strip_prefix("methods::")?;
-    (name.contains("::") && !name.ends_with("::all") && !name.contains(['<', '{'])).then_some(name)
+/// `puma560::inverse_dynamics` of `methods::puma560::inverse_dynamics` in Rust, of `puma560_inverse_dynamics` in C.
+fn method_name(function: &Function) -> Option<String> {
+    let name = function.name.as_str();
+    if let Some(name) = name.strip_prefix("methods::") {
+        let is_method = name.contains("::") && !name.ends_with("::all") && !name.contains(['<', '{']);
+        return is_method.then(|| name.to_owned());
+    }
+    let mut robots = ROBOTS.iter().map(|(prefix, _)| prefix);
+    let (robot, method) =
+        robots.find_map(|robot| Some((robot, name.strip_prefix(robot)?.strip_prefix('_')?)))?;
+    let method = match method {
+        "inverse_derivatives" => "inverse_dynamics_derivatives",
+        "forward_derivatives" => "forward_dynamics_derivatives",
+        other => other,
+    };
+    METHODS.contains(&method).then(|| format!("{robot}::{method}"))
 }

@@ -6,10 +6,11 @@ use std::fmt::Write as _;
 use crate::measure::Cost;
 
 /// The robots, in the order of the table: modules of the program `methods`.
-const ROBOTS: [&str; 6] = ["scalar", "robojudge", "robojudge_prepared", "cart_pole", "puma560", "iiwa14"];
+const ROBOTS: [&str; 7] =
+    ["scalar", "robojudge", "robojudge_prepared", "cart_pole", "leg", "puma560", "iiwa14"];
 
-/// The methods, in the order of the table.
-const METHODS: [&str; 8] = [
+/// The methods and the laws, in the order of the table.
+pub(crate) const METHODS: [&str; 13] = [
     "sin_cos",
     "mass_matrix",
     "coriolis_matrix",
@@ -18,12 +19,19 @@ const METHODS: [&str; 8] = [
     "equations_of_motion",
     "inverse_dynamics",
     "forward_dynamics",
+    "inverse_dynamics_derivatives",
+    "forward_dynamics_derivatives",
+    "computed_torque",
+    "state_feedback",
+    "state_update",
 ];
 
 /// What was measured of one program.
 #[derive(Debug)]
 pub(crate) struct Column {
     pub(crate) title: String,
+    /// Whether the manual of the core has cycles.
+    pub(crate) has_cycles: bool,
     pub(crate) costs: BTreeMap<String, Cost>,
 }
 
@@ -42,60 +50,75 @@ const MARKS: [Mark; 3] = [
 ];
 
 /// The table as text.
-pub(crate) fn table(rustc: &str, columns: &[Column]) -> String {
+pub(crate) fn table(compilers: &str, columns: &[Column]) -> String {
     let mut text = format!(
-        "{rustc}\n\nOne call: executed instructions, bytes of flash, bytes of stack.\n\
+        "{compilers}\n\nOne call: executed instructions, the most cycles by the manual, bytes of flash, bytes of stack.\n\
          An equals sign: no other number of instructions is possible, the code has one way through.\n\n"
     );
-    let _ = write!(text, "{:41}", "");
-    for Column { title, .. } in columns {
-        let _ = write!(text, "{title:>31}");
+    let mut line = format!("{:50}", "");
+    for Column { title, has_cycles, .. } in columns {
+        let width = if *has_cycles { 40 } else { 32 };
+        let _ = write!(line, "{title:>width$}");
     }
-    let _ = write!(text, "\n{:20}{:21}", "robot", "method");
-    for _ in columns {
-        let _ = write!(text, "{:>17}{:>7}{:>7}", "instructions", "flash", "stack");
+    line += &format!("\n{:20}{:30}", "robot", "method");
+    for Column { has_cycles, .. } in columns {
+        let cycles = if *has_cycles { "cycles" } else { "" };
+        let width = if *has_cycles { 8 } else { 0 };
+        let _ = write!(line, "{:>18}{cycles:>width$}{:>7}{:>7}", "instructions", "flash", "stack");
     }
+    text += &line;
     text.push('\n');
-    for robot in ROBOTS {
-        for method in METHODS {
-            let name = format!("{robot}::{method}");
-            let cells: Vec<_> = columns.iter().filter_map(|column| column.costs.get(&name)).collect();
-            if cells.len() < columns.len() {
-                continue;
-            }
-            let _ = write!(text, "{robot:20}{method:21}");
-            for Cost { least, most, straight, stack, flash } in cells {
-                let instructions = match straight {
-                    true => format!("= {most}"),
-                    false if least == most => format!("{most}"),
-                    false => format!("{least} to {most}"),
-                };
-                let _ = write!(text, "{instructions:>17}{flash:>7}{stack:>7}");
-            }
-            text.push('\n');
+    for (robot, method) in ROBOTS.iter().flat_map(|robot| METHODS.iter().map(move |method| (robot, method))) {
+        let name = format!("{robot}::{method}");
+        let cells: Vec<_> =
+            columns.iter().map(|column| (column.costs.get(&name), column.has_cycles)).collect();
+        if cells.iter().all(|(cost, _)| cost.is_none()) {
+            continue;
         }
+        let _ = write!(text, "{robot:20}{method:30}");
+        for (cost, has_cycles) in cells {
+            text += &cell(cost, has_cycles);
+        }
+        text.truncate(text.trim_end().len());
+        text.push('\n');
     }
     text
+}
+
+fn cell(cost: Option<&Cost>, has_cycles: bool) -> String {
+    let width = if has_cycles { 8 } else { 0 };
+    let Some(Cost { least, most, straight, cycles, stack, flash }) = cost else {
+        return format!("{:>18}{:>width$}{:>7}{:>7}", "-", if has_cycles { "-" } else { "" }, "-", "-");
+    };
+    let instructions = match straight {
+        true => format!("= {most}"),
+        false if least == most => format!("{most}"),
+        false => format!("{least} to {most}"),
+    };
+    let cycles = match cycles {
+        Some(cycles) => format!("{cycles}"),
+        None if has_cycles => "-".to_owned(),
+        None => String::new(),
+    };
+    format!("{instructions:>18}{cycles:>width$}{flash:>7}{stack:>7}")
 }
 
 /// The marks that were missed.
 pub(crate) fn missed(column: &Column) -> Vec<String> {
     let mut missed = vec![];
+    let title = &column.title;
     for Mark { method, instructions, flash, stack } in MARKS {
-        let Some(cost) = column.costs.get(method) else {
-            missed.push(format!("`{method}` was not measured"));
-            continue;
-        };
+        let Some(cost) = column.costs.get(method) else { continue };
         let mut check = |what: &str, found: usize, most: usize| {
             if found > most {
-                missed.push(format!("`{method}` takes {found} {what}, {most} are allowed"));
+                missed.push(format!("{title}: `{method}` takes {found} {what}, {most} are allowed"));
             }
         };
         check("instructions", cost.most, instructions);
         check("bytes of flash", cost.flash, flash);
         check("bytes of stack", cost.stack as usize, usize::try_from(stack).unwrap_or(usize::MAX));
         if !cost.straight {
-            missed.push(format!("`{method}` is not one straight line"));
+            missed.push(format!("{title}: `{method}` is not one straight line"));
         }
     }
     missed
