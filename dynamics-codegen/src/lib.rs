@@ -239,6 +239,8 @@ pub fn checked<'g>(
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
     let methods = passes::methods(outputs.as_deref(), &model, run_time);
+    check_lengths(spec, &passes::without_terms(&methods, &model, run_time), &mut diags);
+    diags.check()?;
     let compiled = passes::compile(&model, graph, &methods, run_time); // derived, simplified, scheduled
     check_constants(spec, &compiled, &mut diags);
     diags.check()?;
@@ -263,6 +265,18 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
     };
     let place = joints.first().map_or_else(|| spec.ident.span().into(), |joint| joint.name.place.clone());
     diags.error(Code::MassMatrixSingular, &place, message);
+}
+
+/// A recursion over a table of links has no terms.
+fn check_lengths(spec: &RobotSpec, methods: &[mechanics::equations::Method], diags: &mut Diagnostics) {
+    if let (false, Some(term)) = (methods.is_empty(), spec.terms.first()) {
+        let names: Vec<_> = methods.iter().map(|method| format!("`{}`", method.name())).collect();
+        let message = format!(
+            "a robot with terms in its energies is written without loops, and {} would be too long for a compiler",
+            names.join(", ")
+        );
+        diags.error(Code::TermsUnsupported, &term.place, message);
+    }
 }
 
 /// Numbers that are sound one by one can have products beyond the range of doubles.

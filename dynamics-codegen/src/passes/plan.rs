@@ -86,13 +86,14 @@ impl Plans {
     pub(super) fn of(model: &Model<'_>, run_time: RunTime) -> Self {
         let links = &model.tree.links;
         let columns = columns(links.iter().map(|link| (link.parent, link.motion, link.drive)));
-        let parents = elimination_parents(&columns, model.tree.dof());
+        let parents = elimination_parents(&columns, model.tree.dof(), &model.tree.coupled_by_terms());
         let ancestors: Vec<Vec<usize>> =
             parents.iter().map(|&parent| std::iter::successors(parent, |&k| parents[k]).collect()).collect();
         let depth = |link: usize| std::iter::successors(Some(link), |&k| links[k].parent).count();
         let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
-        let suits_lanes = run_time == RunTime::Core && suits_lanes(links);
+        let is_plain = model.tree.terms.is_empty();
+        let suits_lanes = run_time == RunTime::Core && is_plain && suits_lanes(links);
         Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes }
     }
 
@@ -251,12 +252,23 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) ->
     all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method)).collect()
 }
 
+/// The methods among these that terms have a part in and that are recursions over a table of links, which has none.
+pub fn without_terms(methods: &[Method], model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
+    if model.tree.terms.is_empty() {
+        return vec![];
+    }
+    let plans = Plans::of(model, run_time);
+    let of_forces = methods.iter().copied().filter(|method| method.trait_().is_of_forces());
+    of_forces.filter(|method| plans.form(*method) == Form::Table).collect()
+}
+
 /// Whether the robot has more to say than the trait's default does.
 fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
     let any = |acts: fn(&Passive<Expr<'_>>) -> bool| model.tree.links.iter().any(|link| acts(&link.passive));
     match method {
         Method::PassiveForces => {
-            any(|p| !(p.damping.is_zero() && p.friction.is_zero() && p.stiffness.is_zero()))
+            !model.tree.terms.dissipation.is_empty()
+                || any(|p| !(p.damping.is_zero() && p.friction.is_zero() && p.stiffness.is_zero()))
         }
         Method::ElasticEnergy => any(|p| !p.stiffness.is_zero()),
         _ => true,

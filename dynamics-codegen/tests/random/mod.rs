@@ -1,7 +1,7 @@
 //! Random robots in motion: trees with oblique axes, branches, skewed inertias and mass at rest; of the shape `Any`
 //! with all kinds of joints, followers, rotors, dampers, friction and springs.
 
-use dynamics_codegen::model::{Drive, Frame, Link, Motion, Passive, Tree};
+use dynamics_codegen::model::{Drive, Frame, Link, Motion, Passive, Terms, Tree};
 use dynamics_codegen::spatial::{Matrix3, Pose, PseudoInertia, Symmetric3, Vector3};
 
 /// Marsaglia's xorshift64.
@@ -86,7 +86,7 @@ impl Random {
         let carriers = (0..n).map(Some).chain([None]);
         let frames = carriers.map(|link| Frame { name: format!("on {link:?}"), link, pose: self.pose() });
         let frames = frames.collect();
-        Tree { links, base: self.body(), frames, gravity: self.vector(10.0) }
+        Tree { links, base: self.body(), frames, gravity: self.vector(10.0), terms: Terms::none() }
     }
 
     fn passive(&mut self) -> Passive<f64> {

@@ -17,6 +17,7 @@ mod oracle;
 pub mod passive;
 mod rnea;
 mod six;
+mod terms;
 #[cfg(test)]
 mod tests;
 mod whole;
