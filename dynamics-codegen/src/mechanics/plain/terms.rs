@@ -7,7 +7,7 @@
 use super::coriolis::bracket;
 use super::dual::Dual;
 use super::kinematics::pose;
-use crate::model::{Term, Tree};
+use crate::model::{Link, Term, Tree};
 use crate::spatial::{Scalar, Vector3};
 use crate::spec::Function;
 
@@ -151,9 +151,13 @@ pub(super) fn inertial_forces<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S], a: &[
     forces
 }
 
-/// The speeds in whose directions the terms of `T` change, or which stand in them.
+/// The speeds in whose directions the terms of `T` change, or which stand in them: all of a joint that has one of them,
+/// for how fast a free joint's position changes depends on its orientation as well.
 fn acting<S: Scalar>(tree: &Tree<S>) -> Vec<usize> {
-    let mut speeds: Vec<usize> = tree.terms.kinetic.iter().flat_map(|term| term.speeds(tree)).collect();
+    let named: Vec<usize> = tree.terms.kinetic.iter().flat_map(|term| term.speeds(tree)).collect();
+    let of_link = |link: &Link<S>| link.drive.v..link.drive.v + link.motion.speeds();
+    let links = tree.links.iter().filter(|link| named.iter().any(|speed| of_link(link).contains(speed)));
+    let mut speeds: Vec<usize> = links.flat_map(of_link).collect();
     speeds.sort_unstable();
     speeds.dedup();
     speeds
