@@ -233,6 +233,7 @@ pub fn checked<'g>(
     let model = model::build(spec, graph, &mut diags); //      a checked kinematic tree
     diags.check()?;
     let model = model.expect("a model that is not built has been complained about");
+    check_terms(spec, &model, graph, &mut diags);
     check_motions(spec, &model, graph, &mut diags);
     diags.check()?;
 
@@ -247,6 +248,26 @@ pub fn checked<'g>(
     check_against_plain_recursion(spec, &model, &compiled, &mut diags);
     diags.check()?;
     Ok((model, compiled))
+}
+
+/// What cannot be seen in a formula: points that are always one, and what is always zero.
+fn check_terms(spec: &RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
+    use spec::TermKind::{Dissipation, Kinetic, Potential};
+    if spec.terms.is_empty() {
+        return;
+    }
+    let of_kind = |kind| spec.terms.iter().filter(move |term| term.kind == kind);
+    let terms = [Potential, Dissipation, Kinetic].into_iter().flat_map(of_kind);
+    for (term, flaw) in terms.zip(mechanics::terms::flaws(model, graph)) {
+        let formula = &term.formula;
+        let (code, fact) = match flaw {
+            Some(mechanics::plain::Flaw::DivisionByZero) => (Code::DivisionByZero, "divides by what is"),
+            Some(mechanics::plain::Flaw::NoDistance) => (Code::TermIdle, "has a distance that is"),
+            None => continue,
+        };
+        let message = format!("`{}` {fact} zero in every configuration", formula.short_text());
+        diags.error(code, &formula.place, message);
+    }
 }
 
 /// Bodies that are sound one by one can leave joints whose motions cancel each other.

@@ -12,11 +12,11 @@ use super::along::{Along, By, dot, unit};
 use super::composite::Square;
 use super::method::{Argument, Inputs};
 use super::normal::{NormalTree, PlacedJoint};
-use super::plain::bracket;
-use crate::model::{Term, Terms, Tree};
-use crate::spatial::{Pose, Vector3};
+use super::plain::{Flaw, bracket, flaw};
+use crate::model::{Model, Term, Terms, Tree};
+use crate::spatial::{Pose, Random, Vector3};
 use crate::spec::Function;
-use crate::symbolic::{Expr, Graph, Number, SymbolId};
+use crate::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
 
 /// What terms add to the equations of a robot.
 #[derive(Clone)]
@@ -167,6 +167,24 @@ impl<'g> Added<'g> {
         };
         self.terms.iter().map(|(name, energy)| (name.clone(), forces(*energy))).collect()
     }
+}
+
+/// For each term, those of V, of D, of T, what is wrong with it in every configuration.
+pub fn flaws(model: &Model<'_>, graph: &Graph) -> Vec<Option<Flaw>> {
+    let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
+    let tree = model.tree.map(|expr| evaluator.value(expr));
+    let flaw_at = |term: &Term<f64>, state: u64| {
+        let mut random = Random(state);
+        let mut q: Vec<f64> = (0..tree.coordinates()).map(|_| random.next()).collect();
+        let v: Vec<f64> = (0..tree.dof()).map(|_| random.next()).collect();
+        tree.normalise(&mut q);
+        flaw(term, &tree, &q, &v)
+    };
+    let always = |term: &Term<f64>| {
+        let first = flaw_at(term, 1)?;
+        (2..4).all(|state| flaw_at(term, state) == Some(first)).then_some(first)
+    };
+    tree.terms.all().map(always).collect()
 }
 
 /// `ṗ_i + p·[e_i, v] − E_i(T)` at no acceleration.

@@ -221,7 +221,8 @@ fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
     links.iter().enumerate().all(is_own) && (0..links.len()).all(follows)
 }
 
-/// The methods to compile: those named and what they call, or all that the robot has.
+/// The methods to compile: those named and what they call, or all that the robot has. Where all inertia is in terms of
+/// the kinetic energy, there is no centre of mass.
 pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
     let plans = Plans::of(model, run_time);
     let of_frames = (0..model.tree.frames.len()).flat_map(Method::of_frame);
@@ -248,8 +249,11 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) ->
         matches!(method.trait_(), Trait::Regressor | Trait::BaseRegressor)
             && plans.form(Method::Regressor) == Form::Table
     };
+    let has_mass = model.tree.links.iter().any(|link| !link.inertia.mass.is_zero());
+    let is_nowhere = |method: Method| method.trait_() == Trait::CentroidalDynamics && !has_mass;
     let all = Method::OF_ROBOT.into_iter().chain(of_frames);
-    all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method)).collect()
+    let all = all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method));
+    all.filter(|&method| !is_nowhere(method)).collect()
 }
 
 /// The methods among these that terms have a part in and that are recursions over a table of links, which has none.

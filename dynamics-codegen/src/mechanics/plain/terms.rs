@@ -50,6 +50,26 @@ fn operated<S: Scalar>(term: &Term<S>, of: impl Fn(&Term<S>) -> S, tree: &Tree<S
     }
 }
 
+/// What makes a term undefined, or useless, if it holds in every configuration.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flaw {
+    /// It divides by zero.
+    DivisionByZero,
+    /// Two points are one.
+    NoDistance,
+}
+
+/// The first flaw of a term at a configuration.
+pub fn flaw(term: &Term<f64>, tree: &Tree<f64>, q: &[f64], v: &[f64]) -> Option<Flaw> {
+    // Sums of a few numbers of the size of one, of which nothing but rounding is left.
+    let is_nothing = |value: f64| value.abs() < 1e-12;
+    match term {
+        Term::Quotient(parts) if is_nothing(value(&parts[1], tree, q, v)) => Some(Flaw::DivisionByZero),
+        Term::Distance(_) if is_nothing(value(term, tree, q, v)) => Some(Flaw::NoDistance),
+        _ => term.parts().into_iter().find_map(|part| flaw(part, tree, q, v)),
+    }
+}
+
 fn power<S: Scalar>(base: S, exponent: u32) -> S {
     (0..exponent).fold(S::one(), |power, _| power * base)
 }
