@@ -252,6 +252,7 @@ pub fn checked<'g>(
 
 /// What cannot be seen in a formula: points that are always one, and what is always zero.
 fn check_terms(spec: &RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
+    use mechanics::plain::Flaw;
     use spec::TermKind::{Dissipation, Kinetic, Potential};
     if spec.terms.is_empty() {
         return;
@@ -261,12 +262,23 @@ fn check_terms(spec: &RobotSpec, model: &model::Model<'_>, graph: &Graph, diags:
     for (term, flaw) in terms.zip(mechanics::terms::flaws(model, graph)) {
         let formula = &term.formula;
         let (code, fact) = match flaw {
-            Some(mechanics::plain::Flaw::DivisionByZero) => (Code::DivisionByZero, "divides by what is"),
-            Some(mechanics::plain::Flaw::NoDistance) => (Code::TermIdle, "has a distance that is"),
+            Some(Flaw::DivisionByZero) => {
+                (Code::DivisionByZero, "divides by what is zero in every configuration")
+            }
+            Some(Flaw::NoDistance) => (Code::TermIdle, "has a distance that is zero in every configuration"),
+            Some(Flaw::ForceAtRest) => (Code::ForceAtRest, "acts at rest, or is not smooth there"),
+            Some(Flaw::Drives) => (Code::PassiveNegative, "drives what it should resist"),
             None => continue,
         };
-        let message = format!("`{}` {fact} zero in every configuration", formula.short_text());
-        diags.error(code, &formula.place, message);
+        diags.error(code, &formula.place, format!("`{}` {fact}", formula.short_text()));
+    }
+    let first = spec.terms.iter().find(|term| term.kind == Kinetic);
+    if let Some(first) = first.filter(|_| diags.is_empty())
+        && mechanics::singular::idle_motion(model, graph).is_none()
+        && mechanics::terms::is_indefinite(model, graph)
+    {
+        let message = "with the kinetic terms, some motion has negative energy: M is not positive definite";
+        diags.error(Code::KineticNegative, &first.place, message);
     }
 }
 

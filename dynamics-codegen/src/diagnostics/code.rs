@@ -189,6 +189,11 @@ catalogue! {
          `m / 2 * (dot(r)^2 + r^2 * dot(theta)^2)`",
     /// A term, or a part of one, on which nothing that moves has an influence.
     TermIdle => "let it depend on what moves, or leave it out",
+    /// A dissipation whose derivative by the speeds is not zero at rest, or none.
+    ForceAtRest => "let it be least at rest, as a square is, and smooth a magnitude: `sqrt(dot(r)^2 + 1e-4)`; a force that \
+         does not depend on speeds is one of a potential",
+    /// Kinetic terms by which some motion would have no energy, or less.
+    KineticNegative => "check the signs of the kinetic terms, and whether their sum is positive for all speeds",
     /// A method that is a recursion over a table of links, in a robot with terms.
     TermsUnsupported => "leave out what is too long: name the others in `#[dynamics(outputs(…))]`",
     // Options

@@ -12,7 +12,7 @@ use super::along::{Along, By, dot, unit};
 use super::composite::Square;
 use super::method::{Argument, Inputs};
 use super::normal::{NormalTree, PlacedJoint};
-use super::plain::{Flaw, bracket, flaw};
+use super::plain::{Cholesky, Flaw, Oracle, bracket, flaw, flaw_of_dissipation};
 use crate::model::{Model, Term, Terms, Tree};
 use crate::spatial::{Pose, Random, Vector3};
 use crate::spec::Function;
@@ -173,18 +173,37 @@ impl<'g> Added<'g> {
 pub fn flaws(model: &Model<'_>, graph: &Graph) -> Vec<Option<Flaw>> {
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
-    let flaw_at = |term: &Term<f64>, state: u64| {
-        let mut random = Random(state);
+    let states = states(&tree);
+    let always = |flaw_at: &dyn Fn(&[f64], &[f64]) -> Option<Flaw>| {
+        let mut found = states.iter().map(|(q, v)| flaw_at(q, v));
+        let first = found.next()??;
+        found.all(|other| other == Some(first)).then_some(first)
+    };
+    let of_any = |term: &Term<f64>| always(&|q, v| flaw(term, &tree, q, v));
+    let of_dissipation =
+        |term: &Term<f64>| of_any(term).or_else(|| always(&|q, v| flaw_of_dissipation(term, &tree, q, v)));
+    let Terms { potential, dissipation, kinetic } = &tree.terms;
+    let judged = potential.iter().map(of_any).chain(dissipation.iter().map(of_dissipation));
+    judged.chain(kinetic.iter().map(of_any)).collect()
+}
+
+/// Whether kinetic terms leave some motion without energy, or with less, in every configuration that is tried.
+pub fn is_indefinite(model: &Model<'_>, graph: &Graph) -> bool {
+    let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
+    let tree = model.tree.map(|expr| evaluator.value(expr));
+    let is_indefinite = |M: Vec<Vec<f64>>| M.iter().flatten().all(|x| x.is_finite()) && Cholesky::of(&M).is_none();
+    states(&tree).iter().all(|(q, _)| is_indefinite(Oracle::new(&tree).mass_matrix(q)))
+}
+
+/// A few configurations, and speeds.
+fn states(tree: &Tree<f64>) -> Vec<(Vec<f64>, Vec<f64>)> {
+    let state = |seed: u64| {
+        let mut random = Random(seed);
         let mut q: Vec<f64> = (0..tree.coordinates()).map(|_| random.next()).collect();
-        let v: Vec<f64> = (0..tree.dof()).map(|_| random.next()).collect();
         tree.normalise(&mut q);
-        flaw(term, &tree, &q, &v)
+        (q, (0..tree.dof()).map(|_| random.next()).collect())
     };
-    let always = |term: &Term<f64>| {
-        let first = flaw_at(term, 1)?;
-        (2..4).all(|state| flaw_at(term, state) == Some(first)).then_some(first)
-    };
-    tree.terms.all().map(always).collect()
+    (1..4).map(state).collect()
 }
 
 /// `ṗ_i + p·[e_i, v] − E_i(T)` at no acceleration.

@@ -80,6 +80,8 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
+    /// Whether the mass matrix is more than the tree's, so that it must be factored.
+    must_factor: bool,
 }
 
 impl Plans {
@@ -94,7 +96,8 @@ impl Plans {
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
         let is_plain = model.tree.terms.is_empty();
         let suits_lanes = run_time == RunTime::Core && is_plain && suits_lanes(links);
-        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes }
+        let must_factor = !model.tree.terms.kinetic.is_empty();
+        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes, must_factor }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
@@ -156,6 +159,9 @@ impl Plans {
             Method::Regressor | Method::BaseRegressor => 50 * pairs,
             Method::BiasForces | Method::InverseDynamics => 40 * n,
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
+            Method::ForwardDynamics if self.must_factor => {
+                80 * n + self.ancestors.iter().map(|ancestors| ancestors.len() * ancestors.len()).sum::<usize>()
+            }
             Method::ForwardDynamics => 80 * n,
             // By loops: the two methods it calls have their own forms.
             Method::ForwardDynamicsDerivatives

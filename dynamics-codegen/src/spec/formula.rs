@@ -249,7 +249,8 @@ fn exponent(input: &mut Cursor) -> Result<(i32, Place)> {
     let negative = input.punct('-');
     let place = start.to(&input.here());
     let wrong = |found: &str| {
-        let message = format!("the exponent `{}` is no whole number up to {LARGEST_EXPONENT}", shortened(found));
+        let (sign, found) = (if negative { "-" } else { "" }, shortened(found));
+        let message = format!("the exponent `{sign}{found}` is no whole number of at most {LARGEST_EXPONENT}");
         Diagnostic::new(Code::ExponentInvalid, &place, message)
     };
     let Some(literal) = input.literal() else {

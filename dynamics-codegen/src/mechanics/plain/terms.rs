@@ -7,7 +7,7 @@
 use super::coriolis::bracket;
 use super::dual::Dual;
 use super::kinematics::pose;
-use crate::model::{Link, Term, Tree};
+use crate::model::{Link, Term, Terms, Tree};
 use crate::spatial::{Scalar, Vector3};
 use crate::spec::Function;
 
@@ -57,6 +57,25 @@ pub enum Flaw {
     DivisionByZero,
     /// Two points are one.
     NoDistance,
+    /// It acts at rest, or is not smooth there.
+    ForceAtRest,
+    /// It gives energy.
+    Drives,
+}
+
+/// What is wrong with a term of D at a configuration. Of those that drive, D as a whole must.
+pub fn flaw_of_dissipation(term: &Term<f64>, tree: &Tree<f64>, q: &[f64], v: &[f64]) -> Option<Flaw> {
+    let power_of = |tree: &Tree<f64>| -> f64 {
+        dissipation_forces(tree, q, v).iter().zip(v).map(|(force, v)| force * v).sum()
+    };
+    let alone = Terms { dissipation: vec![term.clone()], ..Terms::none() };
+    let alone = Tree { terms: alone, ..tree.clone() };
+    let at_rest = dissipation_forces(&alone, q, &vec![0.0; v.len()]);
+    // What is left of forces of the size of one.
+    match at_rest.iter().all(|force| force.abs() < 1e-9) {
+        false => Some(Flaw::ForceAtRest),
+        true => (power_of(&alone) < 0.0 && power_of(tree) < 0.0).then_some(Flaw::Drives),
+    }
 }
 
 /// The first flaw of a term at a configuration.
