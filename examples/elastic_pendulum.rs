@@ -69,8 +69,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         widest = widest.max(swing / last);
         println!("{:9.1} {:11.4} {:11.4}", sample.time, last - swing, swing);
     }
-    println!("At its widest the swing had {:.0} % of the energy, which changed by {:.0e} J.", 100.0 * widest, last - before);
-    assert!(widest > 0.8 && (last - before).abs() < 1e-6, "the energy goes from the spring to the swing, and stays");
+    println!(
+        "At its widest the swing had {:.0} % of the energy, which changed by {:.0e} J.",
+        100.0 * widest,
+        last - before
+    );
+    assert!(
+        widest > 0.8 && (last - before).abs() < 1e-6,
+        "the energy goes from the spring to the swing, and stays"
+    );
 
     draw(|| seen.figure("A pendulum on a spring").with_all(seen.phase("r")), || seen.film())
 }

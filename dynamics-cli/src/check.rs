@@ -46,9 +46,12 @@ fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
     }
     text += "\ntree\n";
     text += &tree::draw(spec, &report.root);
-    for (title, rows) in
-        [("joints", of_joints(robot)), ("followers", followers(spec)), ("passive", passive(robot)), ("terms", terms(spec))]
-    {
+    for (title, rows) in [
+        ("joints", of_joints(robot)),
+        ("followers", followers(spec)),
+        ("passive", passive(robot)),
+        ("terms", terms(spec)),
+    ] {
         if !rows.is_empty() {
             text += &format!("\n{title}\n{rows}");
         }

@@ -42,7 +42,13 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
             _ => format!("{name} ({kind}) ─ "),
         };
         let (carrier, child) = match joint.is_bare {
-            true => (format!("{name} (coordinate, {})", coordinates.get(child).map_or("locked".to_owned(), |q| entries("q", q))), ""),
+            true => (
+                format!(
+                    "{name} (coordinate, {})",
+                    coordinates.get(child).map_or("locked".to_owned(), |q| entries("q", q))
+                ),
+                "",
+            ),
             false => (carrier, child),
         };
         let corner = if is_last { "└─ " } else { "├─ " };

@@ -37,10 +37,9 @@ pub(crate) fn for_the_command_line(text: &str) -> String {
 fn option(attribute: &str) -> Option<String> {
     let inner = attribute.strip_prefix("#[")?.strip_suffix(")]")?;
     match inner.split_once('(')? {
-        (
-            helper @ ("joint" | "body" | "coordinate" | "potential" | "dissipation" | "kinetic"),
-            text,
-        ) => Some(format!("--{helper} '{text}'")),
+        (helper @ ("joint" | "body" | "coordinate" | "potential" | "dissipation" | "kinetic"), text) => {
+            Some(format!("--{helper} '{text}'"))
+        }
         ("dynamics", text) => match text.strip_suffix(')').and_then(|text| text.split_once('(')) {
             Some((key, value)) => Some(format!("--{key} {value}")),
             None => text.split_once(" = ").map(|(key, value)| format!("--{key} {value}")),

@@ -196,8 +196,8 @@ fn coriolis_matrix_gives_the_bias_and_half_its_derivative() {
         let C = oracle.coriolis_matrix(q, v);
         let bias = plus(&plus(&times(&C, v), &oracle.gravity_forces(q)), &oracle.passive_forces(q, v));
         assert_close("C·v + G", &bias, &oracle.bias_forces(q, v), ROUNDING);
-        let has_passive = tree.links.iter().any(|link| link.passive.damping != 0.0)
-            || !tree.terms.dissipation.is_empty();
+        let has_passive =
+            tree.links.iter().any(|link| link.passive.damping != 0.0) || !tree.terms.dissipation.is_empty();
         if has_passive || !tree.is_one_dof() {
             // Dampers add to ∂τ/∂v, and torsion parts it from 2C; differences check it there.
             return;

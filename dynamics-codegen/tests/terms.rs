@@ -249,8 +249,7 @@ fn regressors_have_a_column_for_each_term() {
     let fields = [("m", 2.0), ("k", 3.0), ("J", 0.02), ("c", 0.4)];
     let at = At { fields: &fields, q: &[0.3, 0.9], v: &[1.2, -0.7], a: &[0.8, 2.0] };
     let found = results(robot, &at);
-    for (matrix, parameters) in
-        [("regressor", "inertial_parameters"), ("base_regressor", "base_parameters")]
+    for (matrix, parameters) in [("regressor", "inertial_parameters"), ("base_regressor", "base_parameters")]
     {
         let (Y, pi) = (&found[matrix], &found[parameters]);
         assert_eq!(&pi[pi.len() - 3..], [1.0; 3]);

@@ -399,10 +399,7 @@ use proc_macro::TokenStream;
 ///     r: T,
 /// }
 /// ```
-#[proc_macro_derive(
-    Dynamics,
-    attributes(dynamics, joint, body, coordinate, potential, dissipation, kinetic)
-)]
+#[proc_macro_derive(Dynamics, attributes(dynamics, joint, body, coordinate, potential, dissipation, kinetic))]
 pub fn derive_dynamics(input: TokenStream) -> TokenStream {
     dynamics_codegen::derive(input.into(), read).into()
 }

@@ -25,12 +25,7 @@ pub(super) struct Along<'g> {
 }
 
 impl<'g> Along<'g> {
-    pub(super) fn new(
-        graph: &'g Graph,
-        symbols: &[SymbolId],
-        tree: &Tree<Expr<'g>>,
-        q: &[Expr<'g>],
-    ) -> Self {
+    pub(super) fn new(graph: &'g Graph, symbols: &[SymbolId], tree: &Tree<Expr<'g>>, q: &[Expr<'g>]) -> Self {
         let n = tree.dof();
         let directions = (0..n).map(|k| tree.configuration_rate(q, &unit(k, n)));
         Self { by_q: By::new(graph, symbols), q: q.to_vec(), directions: directions.collect() }

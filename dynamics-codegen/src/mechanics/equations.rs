@@ -177,7 +177,9 @@ impl<'g> Derivation<'g> {
             Method::Lagrangian => {
                 vec![scalar(self.kinetic_energy_by_matrices() - self.potential_energy())]
             }
-            Method::InverseDynamicsDerivatives => self.by_chain_rule(&self.inverse_dynamics(&self.accelerations())),
+            Method::InverseDynamicsDerivatives => {
+                self.by_chain_rule(&self.inverse_dynamics(&self.accelerations()))
+            }
             Method::InverseDynamicsWithDerivatives => {
                 let tau = self.inverse_dynamics(&self.accelerations());
                 let derivatives = self.by_chain_rule(&tau);

@@ -191,7 +191,8 @@ pub fn flaws(model: &Model<'_>, graph: &Graph) -> Vec<Option<Flaw>> {
 pub fn is_indefinite(model: &Model<'_>, graph: &Graph) -> bool {
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
-    let is_indefinite = |M: Vec<Vec<f64>>| M.iter().flatten().all(|x| x.is_finite()) && Cholesky::of(&M).is_none();
+    let is_indefinite =
+        |M: Vec<Vec<f64>>| M.iter().flatten().all(|x| x.is_finite()) && Cholesky::of(&M).is_none();
     states(&tree).iter().all(|(q, _)| is_indefinite(Oracle::new(&tree).mass_matrix(q)))
 }
 

@@ -25,9 +25,11 @@ use crate::symbolic::{Expr, Graph, Number};
 /// `#[body]` is where its joint was written.
 pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) -> Option<Model<'g>> {
     let before = diags.len();
-    let slots = slots(spec);
+    let mut slots = slots(spec);
     lines::check(spec, &slots, diags);
-    terms::check(spec, diags);
+    // A term that is none tells nothing of units.
+    let sound = terms::check(spec, diags);
+    slots.retain(|slot| !slot.is_term() || sound.iter().any(|term| std::ptr::eq(*term, slot.formula)));
     let values = Values::new(spec, &slots, graph, diags);
     let units = Units::infer(&values, &slots, diags);
     physics::check_numbers(spec, &slots, &values, diags);
@@ -93,7 +95,13 @@ impl<'g> Assembly<'_, 'g> {
         }
         let placed: Vec<_> = placed.into_iter().flatten().collect();
         let (sites, links) = self.links(&placed);
-        let mut tree = Tree { links, base: PseudoInertia::zero(), frames: vec![], gravity: gravity?, terms: Terms::none() };
+        let mut tree = Tree {
+            links,
+            base: PseudoInertia::zero(),
+            frames: vec![],
+            gravity: gravity?,
+            terms: Terms::none(),
+        };
         for (joint, mass) in masses.into_iter().enumerate() {
             let Some(mass) = mass else { continue };
             let mass = mass.transformed(sites[joint].pose);

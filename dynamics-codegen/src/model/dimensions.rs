@@ -72,7 +72,8 @@ impl<'a> Units<'a> {
     /// Solves for all units, and reports the contradictions.
     pub(super) fn infer(values: &'a Values<'a, 'a>, slots: &[Slot], diags: &mut Diagnostics) -> Self {
         let count = values.fields().len();
-        let mut units = Self { values, solved: vec![None; count], origins: vec![None; count], is_term: false };
+        let mut units =
+            Self { values, solved: vec![None; count], origins: vec![None; count], is_term: false };
         // A field where a number is needed is a mistake already, and tells nothing of the field's unit.
         let (bare, composed): (Vec<&Slot>, Vec<&Slot>) = slots
             .iter()
@@ -301,9 +302,9 @@ impl<'a> Units<'a> {
 fn has_bare_factor(formula: &Formula) -> bool {
     let is_bare = |formula: &Formula| matches!(formula.kind, FormulaKind::Number(_, None));
     match &formula.kind {
-        FormulaKind::Product(factors) => {
-            factors.iter().any(|factor| (!factor.divides && is_bare(&factor.formula)) || has_bare_factor(&factor.formula))
-        }
+        FormulaKind::Product(factors) => factors
+            .iter()
+            .any(|factor| (!factor.divides && is_bare(&factor.formula)) || has_bare_factor(&factor.formula)),
         _ => false,
     }
 }

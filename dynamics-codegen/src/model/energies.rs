@@ -118,7 +118,11 @@ impl<S> Term<S> {
     /// The parts of which it is made.
     pub fn parts(&self) -> Vec<&Self> {
         match self {
-            Self::Still(_) | Self::Coordinate { .. } | Self::Speed(_) | Self::Place(..) | Self::Distance(_) => {
+            Self::Still(_)
+            | Self::Coordinate { .. }
+            | Self::Speed(_)
+            | Self::Place(..)
+            | Self::Distance(_) => {
                 vec![]
             }
             Self::Rate(inner) | Self::Negative(inner) | Self::Power(inner, _) | Self::Call(_, inner) => {

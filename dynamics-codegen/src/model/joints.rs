@@ -35,7 +35,9 @@ fn check_place_of_coordinate(joint: &JointSpec, diags: &mut Diagnostics) {
     for (key, place) in given {
         let message = format!("`{name}` is a coordinate without a body, and has a place by `{key}`");
         let unfit = Diagnostic::new(Code::KeyNotOfKind, place, message);
-        diags.push(unfit.help("leave the key out, or write a joint and a body: `#[joint(name: revolute(z), world -> body, …)]`"));
+        diags.push(unfit.help(
+            "leave the key out, or write a joint and a body: `#[joint(name: revolute(z), world -> body, …)]`",
+        ));
     }
 }
 

@@ -4,21 +4,18 @@ use super::energies::{Term, Terms};
 use super::topology::WORLD;
 use super::values::{Result, Values, for_each_name, is_pi};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place, did_you_mean};
-use crate::spec::{
-    Formula, FormulaKind, JointKind, JointSpec, Moving, Name, RobotSpec, TermKind, TermSpec,
-};
+use crate::spec::{Formula, FormulaKind, JointKind, JointSpec, Moving, Name, RobotSpec, TermKind, TermSpec};
 use crate::symbolic::Expr;
 
-/// Checks all terms, before there is a tree.
-pub(super) fn check(spec: &RobotSpec, diags: &mut Diagnostics) {
-    for term in &spec.terms {
+/// Checks all terms, before there is a tree; those that have no mistake of their own.
+pub(super) fn check<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> Vec<&'s Formula> {
+    let mut is_sound = |term: &&TermSpec| {
         let before = diags.len();
         let judge = Judge { spec, kind: term.kind };
         judge.names(&term.formula, false, diags);
-        if diags.len() == before {
-            diags.keep(judge.whole(term));
-        }
-    }
+        diags.len() == before && diags.keep(judge.whole(term)).is_some()
+    };
+    spec.terms.iter().filter(&mut is_sound).map(|term| &term.formula).collect()
 }
 
 /// What judges one term.
@@ -67,7 +64,8 @@ impl<'s> Judge<'s> {
             }
             Moving::Distance(bodies) => {
                 let [a, b] = &**bodies;
-                let known: Vec<_> = [a, b].into_iter().filter_map(|name| diags.keep(self.body(name))).collect();
+                let known: Vec<_> =
+                    [a, b].into_iter().filter_map(|name| diags.keep(self.body(name))).collect();
                 if known.len() == 2 && a.text == b.text {
                     let message = format!("`distance({a}, {b})` is always zero");
                     diags.error(Code::TermIdle, place, message);
@@ -111,7 +109,8 @@ impl<'s> Judge<'s> {
             });
         }
         if is_of_quaternion(&part.text) && kind.coordinate_parts().contains(&&*part.text) {
-            let message = format!("`{name}.{part}` is a part of a quaternion, of which two mean one orientation");
+            let message =
+                format!("`{name}.{part}` is a part of a quaternion, of which two mean one orientation");
             let unfit = Diagnostic::new(Code::CoordinateUnfit, &part.place, message);
             return Err(unfit.help(
                 "say it by places of bodies, as in `z(body)` or `distance(a, b)`, or make the joint of `revolute` ones",
@@ -147,7 +146,8 @@ impl<'s> Judge<'s> {
     fn speed(&self, place: &Place, text: &str, in_rate: bool, diags: &mut Diagnostics) {
         let wrong = if in_rate {
             let message = format!("`{text}` is a speed, and its rate an acceleration");
-            Diagnostic::new(Code::SpeedMisplaced, place, message).help("take the rate of coordinates and places")
+            Diagnostic::new(Code::SpeedMisplaced, place, message)
+                .help("take the rate of coordinates and places")
         } else if self.kind == TermKind::Potential {
             let message = format!("`{text}` is a speed, and stands in a potential");
             Diagnostic::new(Code::SpeedMisplaced, place, message)
@@ -407,7 +407,8 @@ impl<'g> Meaning<'_, 'g> {
         let frame = |name: &Name| (self.frame)(&name.text);
         Ok(match moving {
             Moving::Part(joint, part) => {
-                let kind = self.spec.joints.iter().find(|known| known.name.text == joint.text).map(|j| j.kind);
+                let kind =
+                    self.spec.joints.iter().find(|known| known.name.text == joint.text).map(|j| j.kind);
                 let of = |parts: &[&str]| parts.iter().position(|known| part.text == *known);
                 let at = kind.and_then(|kind| of(kind.coordinate_parts()));
                 match (at, kind.and_then(|kind| of(kind.speed_parts()))) {

@@ -54,8 +54,7 @@ impl<'s, 'g> Values<'s, 'g> {
                 graph.symbol(SymbolId(count - 1))
             })
         });
-        let joint_by_name =
-            spec.joints.iter().enumerate().map(|(k, joint)| (&*joint.name.text, k)).collect();
+        let joint_by_name = spec.joints.iter().enumerate().map(|(k, joint)| (&*joint.name.text, k)).collect();
         Self { fields, symbols: symbols.collect(), by_name, joints: &spec.joints, joint_by_name }
     }
 

@@ -160,7 +160,8 @@ impl Plans {
             Method::BiasForces | Method::InverseDynamics => 40 * n,
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
             Method::ForwardDynamics if self.must_factor => {
-                80 * n + self.ancestors.iter().map(|ancestors| ancestors.len() * ancestors.len()).sum::<usize>()
+                80 * n
+                    + self.ancestors.iter().map(|ancestors| ancestors.len() * ancestors.len()).sum::<usize>()
             }
             Method::ForwardDynamics => 80 * n,
             // By loops: the two methods it calls have their own forms.

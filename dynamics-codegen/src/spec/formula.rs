@@ -195,7 +195,10 @@ impl Formula {
             Some((argument, end)) => {
                 let place = name.place.to(&end);
                 if words == Words::OfTerms && moving::is_known(&name) {
-                    return Ok(Self { kind: FormulaKind::Moving(Moving::parse(&name, argument, &end)?), place });
+                    return Ok(Self {
+                        kind: FormulaKind::Moving(Moving::parse(&name, argument, &end)?),
+                        place,
+                    });
                 }
                 let function = Function::named(&name, words)?;
                 let argument = Box::new(Self::parse_in(argument, words)?);
@@ -250,7 +253,8 @@ fn exponent(input: &mut Cursor) -> Result<(i32, Place)> {
     let place = start.to(&input.here());
     let wrong = |found: &str| {
         let (sign, found) = (if negative { "-" } else { "" }, shortened(found));
-        let message = format!("the exponent `{sign}{found}` is no whole number of at most {LARGEST_EXPONENT}");
+        let message =
+            format!("the exponent `{sign}{found}` is no whole number of at most {LARGEST_EXPONENT}");
         Diagnostic::new(Code::ExponentInvalid, &place, message)
     };
     let Some(literal) = input.literal() else {

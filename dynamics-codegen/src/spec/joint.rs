@@ -116,7 +116,12 @@ impl JointSpec {
 
 impl JointSpec {
     /// Reads `name: angle, key = value, …` or `name: length, …`: a coordinate without a body.
-    pub(super) fn coordinate(input: Cursor, place: Place, line: usize, diags: &mut Diagnostics) -> Option<Self> {
+    pub(super) fn coordinate(
+        input: Cursor,
+        place: Place,
+        line: usize,
+        diags: &mut Diagnostics,
+    ) -> Option<Self> {
         let mut items = input.items().into_iter();
         let missing = || Diagnostic::new(Code::Syntax, &place, "the coordinate has no `name: angle`");
         let head = items.next().ok_or_else(missing).and_then(|mut item| {
@@ -147,7 +152,10 @@ impl JointSpec {
         let (name, kind, kind_place) = head?;
         Some(Self {
             kind,
-            axes: vec![Axis { kind: AxisKind::Named { index: 2, negative: false }, place: kind_place.clone() }],
+            axes: vec![Axis {
+                kind: AxisKind::Named { index: 2, negative: false },
+                place: kind_place.clone(),
+            }],
             kind_place,
             pitch: None,
             parent: Name { text: "world".to_owned(), place: place.clone() },

@@ -123,8 +123,7 @@ pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
     spec
 }
 
-const HELPERS: [&str; 7] =
-    ["dynamics", "joint", "body", "coordinate", "potential", "dissipation", "kinetic"];
+const HELPERS: [&str; 7] = ["dynamics", "joint", "body", "coordinate", "potential", "dissipation", "kinetic"];
 
 /// Which helper attribute of the derive it is.
 fn helper(attribute: &syn::Attribute) -> Option<&'static str> {
