@@ -237,7 +237,7 @@ const LINES: &[(Code, &str)] = &[
     (Code::TermIdle, "J B #[joint(p: fixed, a -> b)] #[potential(w * distance(a, b))]"),
     (Code::ForceAtRest, "J B #[dissipation(w * dot(q))]"),
     (Code::ForceAtRest, "J B #[dissipation(w * sqrt(dot(q)^2))]"),
-    (Code::PassiveNegative, "J B #[dissipation(-w / 2 * dot(q)^2)]"),
+    (Code::PassiveNegative, "J B #[dissipation(-3Nms / 2 * dot(q)^2)]"),
     (Code::KineticNegative, "J B #[kinetic(-3kg_m2 * dot(q)^2)]"),
     (Code::DivisionByZero, "J B #[potential(w / z(a))]"),
     (Code::DivisionByZero, "J B #[potential(w / (q - q))]"),

@@ -2,16 +2,10 @@ use dynamics_core::prelude::*;
 
 #[derive(Dynamics)]
 #[joint(theta: revolute(y), world -> arm)]
-#[body(arm)]
-#[joint(r: prismatic(-z), arm -> bob)]
-#[body(bob, solid = point(m))]
-#[kinetic(-2kg_m2 * dot(theta)^2 - m * r^2 * dot(theta)^2)]
-struct OnASpring<T> {
-    m: T,
-    k: T,
-}
+#[body(arm, com = [0, 0, -0.5], solid = point(2kg))]
+#[kinetic(-0.6kg_m2 / 2 * dot(theta)^2)]
+struct Pendulum;
 
 fn main() {
-    let robot = OnASpring { m: 1.0, k: 20.0 };
-    println!("{}", robot.gravity_forces(&SVector::from([0.1, 0.5]))[1]);
+    println!("{}", Pendulum.gravity_forces(&SVector::from([0.1]))[0]);
 }

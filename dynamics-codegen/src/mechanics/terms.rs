@@ -180,15 +180,22 @@ pub fn flaws(model: &Model<'_>, graph: &Graph) -> Vec<Option<Flaw>> {
         found.all(|other| other == Some(first)).then_some(first)
     };
     let of_any = |term: &Term<f64>| always(&|q, v| flaw(term, &tree, q, v));
-    let of_dissipation =
-        |term: &Term<f64>| of_any(term).or_else(|| always(&|q, v| flaw_of_dissipation(term, &tree, q, v)));
+    // Whether what depends on fields drives is theirs to say.
+    let is_judged = |flaw: &Flaw| *flaw != Flaw::Drives || model.parameters.is_empty();
+    let of_dissipation = |term: &Term<f64>| {
+        of_any(term).or_else(|| always(&|q, v| flaw_of_dissipation(term, &tree, q, v)).filter(is_judged))
+    };
     let Terms { potential, dissipation, kinetic } = &tree.terms;
     let judged = potential.iter().map(of_any).chain(dissipation.iter().map(of_dissipation));
     judged.chain(kinetic.iter().map(of_any)).collect()
 }
 
-/// Whether kinetic terms leave some motion without energy, or with less, in every configuration that is tried.
+/// Whether kinetic terms leave some motion without energy, or with less, in every configuration that is tried; what depends
+/// on fields is not judged.
 pub fn is_indefinite(model: &Model<'_>, graph: &Graph) -> bool {
+    if !model.parameters.is_empty() {
+        return false;
+    }
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
     let is_indefinite =
