@@ -6,7 +6,7 @@ use dynamics_codegen::mechanics::plain::{Cholesky, Oracle};
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Passive};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
-use dynamics_codegen::spec::{JointKind, JointSpec, RobotSpec, plain, welded};
+use dynamics_codegen::spec::{JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
 use dynamics_codegen::symbolic::{Graph, Number};
 
 use crate::failure::Failure;
@@ -46,9 +46,12 @@ fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
     }
     text += "\ntree\n";
     text += &tree::draw(spec, &report.root);
-    for (title, rows) in
-        [("joints", of_joints(robot)), ("followers", followers(spec)), ("passive", passive(robot))]
-    {
+    for (title, rows) in [
+        ("joints", of_joints(robot)),
+        ("followers", followers(spec)),
+        ("passive", passive(robot)),
+        ("terms", terms(spec)),
+    ] {
         if !rows.is_empty() {
             text += &format!("\n{title}\n{rows}");
         }
@@ -209,6 +212,19 @@ fn passive(robot: &Robot<'_>) -> String {
     }
     rows.insert(0, ["joint", "armature", "damping", "friction", "stiffness"].map(str::to_owned).to_vec());
     table("lrrrr", &rows)
+}
+
+/// What is added to the energies, as `V + k / 2 * (r - r0)^2`.
+fn terms(spec: &RobotSpec) -> String {
+    let line = |term: &TermSpec| {
+        let energy = match term.kind {
+            TermKind::Potential => "V",
+            TermKind::Dissipation => "D",
+            TermKind::Kinetic => "T",
+        };
+        format!("  {energy} + {}\n", term.formula)
+    };
+    spec.terms.iter().map(line).collect()
 }
 
 /// What holds, since the robot was accepted.

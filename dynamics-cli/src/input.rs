@@ -33,6 +33,22 @@ pub(crate) struct InputArgs {
     #[arg(long = "body", value_name = "TEXT")]
     bodies: Vec<String>,
 
+    /// A coordinate without a body, as in `#[coordinate(…)]`: 'sway: length, damping = 2'
+    #[arg(long = "coordinate", value_name = "TEXT")]
+    coordinates: Vec<String>,
+
+    /// A term of the potential energy, as in `#[potential(…)]`: '50N_per_m / 2 * distance(tool0, world)^2'
+    #[arg(long = "potential", value_name = "TERM")]
+    potentials: Vec<String>,
+
+    /// A term of Rayleigh's dissipation function, as in `#[dissipation(…)]`: '2Nms / 2 * dot(elbow)^2'
+    #[arg(long = "dissipation", value_name = "TERM")]
+    dissipations: Vec<String>,
+
+    /// A term of the kinetic energy, as in `#[kinetic(…)]`: '0.1kg_m2 / 2 * (dot(elbow) + dot(wrist))^2'
+    #[arg(long = "kinetic", value_name = "TERM")]
+    kinetics: Vec<String>,
+
     /// Accept what is refused otherwise: bodies whose inertia no distribution of mass has
     #[arg(long, value_name = "WHAT", value_parser = ["nonphysical_inertia"])]
     allow: Option<String>,
@@ -116,6 +132,17 @@ impl InputArgs {
         }
         for body in &self.bodies {
             attributes.add("body", "#[body(", body, ")]");
+        }
+        let terms = [
+            ("coordinate", "#[coordinate(", &self.coordinates),
+            ("potential", "#[potential(", &self.potentials),
+            ("dissipation", "#[dissipation(", &self.dissipations),
+            ("kinetic", "#[kinetic(", &self.kinetics),
+        ];
+        for (option, head, values) in terms {
+            for value in values {
+                attributes.add(option, head, value, ")]");
+            }
         }
         if let Some(allow) = &self.allow {
             attributes.add("allow", "#[dynamics(allow(", allow, "))]");

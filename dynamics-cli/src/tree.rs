@@ -41,6 +41,16 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
             _ if child == root => String::new(),
             _ => format!("{name} ({kind}) ─ "),
         };
+        let (carrier, child) = match joint.is_bare {
+            true => (
+                format!(
+                    "{name} (coordinate, {})",
+                    coordinates.get(child).map_or("locked".to_owned(), |q| entries("q", q))
+                ),
+                "",
+            ),
+            false => (carrier, child),
+        };
         let corner = if is_last { "└─ " } else { "├─ " };
         text += &format!("{left}{corner}{carrier}{child}{mass}\n");
         let line = if is_last { "   " } else { "│  " };

@@ -21,6 +21,10 @@ pub(crate) fn for_the_command_line(text: &str) -> String {
             "name a field of the struct, or write a number",
             "write a number, or vary it, by `--vary` of `dynamics rollouts`",
         ),
+        (
+            "name a field of the struct, or a joint, whose coordinate it is then",
+            "name a joint, whose coordinate it is then, or what `--vary` of `dynamics rollouts` varies",
+        ),
         (" beside the file", " on the command line"),
         (" on the struct", " on the command line"),
     ] {
@@ -33,7 +37,9 @@ pub(crate) fn for_the_command_line(text: &str) -> String {
 fn option(attribute: &str) -> Option<String> {
     let inner = attribute.strip_prefix("#[")?.strip_suffix(")]")?;
     match inner.split_once('(')? {
-        (helper @ ("joint" | "body"), text) => Some(format!("--{helper} '{text}'")),
+        (helper @ ("joint" | "body" | "coordinate" | "potential" | "dissipation" | "kinetic"), text) => {
+            Some(format!("--{helper} '{text}'"))
+        }
         ("dynamics", text) => match text.strip_suffix(')').and_then(|text| text.split_once('(')) {
             Some((key, value)) => Some(format!("--{key} {value}")),
             None => text.split_once(" = ").map(|(key, value)| format!("--{key} {value}")),
@@ -59,6 +65,7 @@ mod tests {
                 "write `#[joint(n: free, world -> a)]` instead of `base`",
                 "write `--joint 'n: free, world -> a'` instead of `--base`",
             ),
+            ("`#[potential(k / 2 * (r - r0)^2)]`", "`--potential 'k / 2 * (r - r0)^2'`"),
             ("described on the struct as well", "described on the command line as well"),
             ("`#[derive(Dynamics)]` and #[", "`#[derive(Dynamics)]` and #["),
         ] {

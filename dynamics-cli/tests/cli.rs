@@ -17,6 +17,8 @@ mod readme;
 mod rollouts;
 #[path = "cli/simulate.rs"]
 mod simulate;
+#[path = "cli/terms.rs"]
+mod terms;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -233,18 +233,53 @@ pub fn checked<'g>(
     let model = model::build(spec, graph, &mut diags); //      a checked kinematic tree
     diags.check()?;
     let model = model.expect("a model that is not built has been complained about");
+    check_terms(spec, &model, graph, &mut diags);
     check_motions(spec, &model, graph, &mut diags);
     diags.check()?;
 
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
     let methods = passes::methods(outputs.as_deref(), &model, run_time);
+    check_lengths(spec, &passes::without_terms(&methods, &model, run_time), &mut diags);
+    diags.check()?;
     let compiled = passes::compile(&model, graph, &methods, run_time); // derived, simplified, scheduled
     check_constants(spec, &compiled, &mut diags);
     diags.check()?;
     check_against_plain_recursion(spec, &model, &compiled, &mut diags);
     diags.check()?;
     Ok((model, compiled))
+}
+
+/// What cannot be seen in a formula: points that are always one, and what is always zero.
+fn check_terms(spec: &RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
+    use mechanics::plain::Flaw;
+    use spec::TermKind::{Dissipation, Kinetic, Potential};
+    if spec.terms.is_empty() {
+        return;
+    }
+    let of_kind = |kind| spec.terms.iter().filter(move |term| term.kind == kind);
+    let terms = [Potential, Dissipation, Kinetic].into_iter().flat_map(of_kind);
+    for (term, flaw) in terms.zip(mechanics::terms::flaws(model, graph)) {
+        let formula = &term.formula;
+        let (code, fact) = match flaw {
+            Some(Flaw::DivisionByZero) => {
+                (Code::DivisionByZero, "divides by what is zero in every configuration")
+            }
+            Some(Flaw::NoDistance) => (Code::TermIdle, "has a distance that is zero in every configuration"),
+            Some(Flaw::ForceAtRest) => (Code::ForceAtRest, "acts at rest, or is not smooth there"),
+            Some(Flaw::Drives) => (Code::PassiveNegative, "drives what it should resist"),
+            None => continue,
+        };
+        diags.error(code, &formula.place, format!("`{}` {fact}", formula.short_text()));
+    }
+    let first = spec.terms.iter().find(|term| term.kind == Kinetic);
+    if let Some(first) = first.filter(|_| diags.is_empty())
+        && mechanics::singular::idle_motion(model, graph).is_none()
+        && mechanics::terms::is_indefinite(model, graph)
+    {
+        let message = "with the kinetic terms, some motion has negative energy: M is not positive definite";
+        diags.error(Code::KineticNegative, &first.place, message);
+    }
 }
 
 /// Bodies that are sound one by one can leave joints whose motions cancel each other.
@@ -263,6 +298,18 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
     };
     let place = joints.first().map_or_else(|| spec.ident.span().into(), |joint| joint.name.place.clone());
     diags.error(Code::MassMatrixSingular, &place, message);
+}
+
+/// A recursion over a table of links has no terms.
+fn check_lengths(spec: &RobotSpec, methods: &[mechanics::equations::Method], diags: &mut Diagnostics) {
+    if let (false, Some(term)) = (methods.is_empty(), spec.terms.first()) {
+        let names: Vec<_> = methods.iter().map(|method| format!("`{}`", method.name())).collect();
+        let message = format!(
+            "a robot with terms in its energies is written without loops, and {} would be too long for a compiler",
+            names.join(", ")
+        );
+        diags.error(Code::TermsUnsupported, &term.place, message);
+    }
 }
 
 /// Numbers that are sound one by one can have products beyond the range of doubles.

@@ -44,6 +44,13 @@ const ROBOTS: &[&str] = &[
     #[joint(c: planar([1, 0, 2]), a -> b)] #[body(b, solid = sphere(1, 1))] #[joint(t: translation, a -> d)]
     #[body(d, solid = point(m))]
     struct Free<S> { m: S }",
+    r"#[joint(p: prismatic(z), world -> bob)] #[body(bob, solid = point(m))] #[joint(o: ball, world -> a)] #[body(a)]
+    #[joint(h: fixed, a -> hook, at = [0, 0.1, 0])] #[coordinate(t: angle, actuated = off)]
+    #[potential(k / 2 * (distance(bob, hook) - l)^2 - m * l * 9.81N / 1kg * cos(t))]
+    #[kinetic(m / 2 * (dot(l * sin(t))^2 + p^2 * dot(t)^2) + j * (o.wx^2 + o.wy^2 + (o.wz - dot(t))^2 / (1 + t^2)))]
+    #[dissipation(c / 2 * dot(z(hook))^2 + f * sqrt(dot(p)^2 + 1e-4))]
+    #[dynamics(outputs(bias_forces, mass_matrix, coriolis_matrix, lagrangian))]
+    struct Swing<T> { m: T, k: T, l: T, j: T, c: T, f: T }",
 ];
 
 /// What slips in: numbers of every size, names of every script, signs, groups, and other robots' words.
@@ -57,6 +64,7 @@ const STRANGE: &str = r#"
     mimic = q, ratio = 2, locked = 0.1, actuated = off, damping = 0.1, gear = 3, base = free, helical(z, 1mm)
     revolute fixed prismatic continuous ball free universal(x, y) cylindrical planar translation mimic ratio offset locked
     armature rotor friction friction_speed stiffness rest base mass com solid dh mdh screw through joint body dynamics
+    dot(q) dot(1) distance(a, world) distance(a, b) z(a) x(world) base.x o.wx ^2 ^-1 ^0 angle length 3J 1N_per_m
     #[joint(q: fixed, world -> a)] #[body(a)] #[dynamics()] #[joint] #[doc = "x"] struct enum union impl pub where"#;
 
 /// Numbers for the places of numbers.

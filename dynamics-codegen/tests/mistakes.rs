@@ -196,6 +196,58 @@ const LINES: &[(Code, &str)] = &[
         "#[joint(x: prismatic([1, 1, 0]), world -> a)] #[body(a)] #[joint(y: prismatic([1, -2, 0]), a -> b)] #[body(b)]
          #[joint(z: prismatic(x), b -> c)] #[body(c, solid = point(m))]",
     ),
+    (Code::Syntax, "J B #[potential]"),
+    (Code::Syntax, "J B #[potential()]"),
+    (Code::Syntax, "J B #[kinetic(m / 2 * dot(q)^2, 3)]"),
+    (Code::Syntax, "J B #[potential(w * a.)]"),
+    (Code::Syntax, "J B #[potential(w * q^2^2)]"),
+    (Code::Syntax, "J B #[coordinate(theta)]"),
+    (Code::Syntax, "J B #[coordinate(theta: turn)]"),
+    (Code::KeyNotOfKind, "J B #[coordinate(r: length, at = [0, 0, 1], armature = 2kg)]"),
+    (Code::FunctionUnknown, "J B #[potential(w * dist(a, world))]"),
+    (Code::CountWrong, "J B #[potential(w * distance(a))]"),
+    (Code::CountWrong, "J B #[potential(w * z(a, a))]"),
+    (Code::ExponentInvalid, "J B #[potential(w * q^x)]"),
+    (Code::ExponentInvalid, "J B #[potential(w * q^0.5)]"),
+    (Code::ExponentInvalid, "J B #[potential(w * q^-17)]"),
+    (Code::ExponentInvalid, "J #[body(a, mass = m^2m, inertia = diag(1, 1, 1))]"),
+    (Code::NameUnknown, "J B #[potential(w * qq^2)]"),
+    (Code::NameUnknown, "J B #[potential(w * base.x^2)]"),
+    (Code::NameAmbiguous, "J B #[joint(x: prismatic(z), a -> b)] #[body(b, solid = point(1))] #[potential(w * x^2)]"),
+    (Code::FrameUnknown, "J B #[potential(w * distance(a, hook)^2)]"),
+    (Code::FrameUnknown, "J B #[potential(w * z(aa))]"),
+    (Code::CoordinateUnfit, "J B #[joint(p: universal(x, y), a -> b)] #[body(b, solid = sphere(1, 1))] #[potential(w * p^2)]"),
+    (Code::CoordinateUnfit, "J B #[joint(p: universal(x, y), a -> b)] #[body(b, solid = sphere(1, 1))] #[potential(w * p.angle^2)]"),
+    (Code::CoordinateUnfit, "J B #[joint(p: ball, a -> b)] #[body(b, solid = sphere(1, 1))] #[potential(w * p.qw^2)]"),
+    (Code::CoordinateUnfit, "J B #[joint(p: ball, a -> b)] #[body(b, solid = sphere(1, 1))] #[dissipation(w * dot(p)^2)]"),
+    (Code::CoordinateUnfit, "J B #[potential(w * q.x^2)]"),
+    (Code::CoordinateUnfit, "J B #[joint(p: fixed, a -> b)] #[potential(w * p^2)]"),
+    (Code::SpeedMisplaced, "J B #[potential(w * dot(q)^2)]"),
+    (Code::SpeedMisplaced, "J B #[joint(p: free, world -> b)] #[body(b, solid = sphere(1, 1))] #[potential(w * p.vx^2)]"),
+    (Code::SpeedMisplaced, "J B #[kinetic(w * dot(dot(q))^2)]"),
+    (Code::NotQuadratic, "J B #[kinetic(w * dot(q))]"),
+    (Code::NotQuadratic, "J B #[kinetic(i / 2 * dot(q)^2 + w * q * dot(q))]"),
+    (Code::NotQuadratic, "J B #[kinetic(w * q)]"),
+    (Code::NotQuadratic, "J B #[kinetic(w * sqrt(dot(q)^4))]"),
+    (Code::NotQuadratic, "J B #[kinetic(w * dot(q)^4 / dot(q)^2)]"),
+    (Code::TermIdle, "J B #[potential(3J)]"),
+    (Code::TermIdle, "J B #[dissipation(w * q^2)]"),
+    (Code::TermIdle, "J B #[kinetic(w * dot(l)^2)]"),
+    (Code::TermIdle, "J B #[potential(w * distance(a, a))]"),
+    (Code::TermIdle, "J B #[joint(p: fixed, a -> b)] #[potential(w * distance(a, b))]"),
+    (Code::ForceAtRest, "J B #[dissipation(w * dot(q))]"),
+    (Code::ForceAtRest, "J B #[dissipation(w * sqrt(dot(q)^2))]"),
+    (Code::PassiveNegative, "J B #[dissipation(-3Nms / 2 * dot(q)^2)]"),
+    (Code::KineticNegative, "J B #[kinetic(-3kg_m2 * dot(q)^2)]"),
+    (Code::DivisionByZero, "J B #[potential(w / z(a))]"),
+    (Code::DivisionByZero, "J B #[potential(w / (q - q))]"),
+    (Code::UnitMismatch, "J B #[joint(p: fixed, a -> b, at = [l, 0, 0])] #[potential(l * q^2)]"),
+    (Code::UnitMismatch, "J B #[potential(20 * z(a)^2)]"),
+    (Code::UnitMismatch, "J B #[dissipation(3Nm * dot(q)^2)]"),
+    (Code::UnitMismatch, "J B #[potential(w * sin(z(a)))]"),
+    (Code::UnitsDiffer, "J B #[potential(w * (q + z(a))^2)]"),
+    (Code::MovesNoMass, "J B #[coordinate(r: length)] #[potential(w * r^2)]"),
+    (Code::ConstantNeeded, "#[joint(q: revolute(z), world -> a, limits = [-l^2, 1])] B"),
     (
         Code::NumberOutOfRange,
         "#[dynamics(gravity = [0, -1e100, 0])] J #[body(a, com = [1e20, 0, 0], solid = sphere(1e250, 1))]",
@@ -235,12 +287,19 @@ const LINES: &[(Code, &str)] = &[
 fn structs() -> Vec<(Code, String)> {
     let deep = format!("{JOINT} #[body(a, mass = {}1{})] struct S;", "(".repeat(80), ")".repeat(80));
     let many: String = (0..1001).map(|k| format!("#[joint(q{k}: revolute(z), world -> b{k})]")).collect();
+    let link = |k: usize| {
+        let parent = k.checked_sub(1).map_or("world".to_owned(), |before| format!("b{before}"));
+        let body = "mass = 1, com = [0.1, 0.2, 0.3], inertia = diag(1, 1, 1)";
+        format!("#[joint(q{k}: revolute([1, 2, 3]), {parent} -> b{k}, at = [1, 0, 0])] #[body(b{k}, {body})]")
+    };
+    let long: String = (0..60).map(link).collect();
     vec![
         (Code::NestingTooDeep, deep),
         (Code::JointsTooMany, format!("{many} struct S;")),
         (Code::StructNeeded, "enum E { A }".to_owned()),
         (Code::StructNeeded, "union U { a: u8 }".to_owned()),
         (Code::StructNeeded, "struct S(f64);".to_owned()),
+        (Code::TermsUnsupported, format!("{long} #[potential(3Nm * q0^2)] struct S;")),
         (Code::AttributeMisplaced, format!("{JOINT} {BODY} struct S {{ #[joint(q: fixed)] a: f64 }}")),
     ]
 }
@@ -307,7 +366,12 @@ const SKEWED: &str = r#"
     #[body(five, solid = sphere(1, 1))]
     #[joint(f: universal(x, [0, 1, 1]), five -> six, actuated = off)] #[body(six, solid = sphere(1, 1))]
     #[joint(g: prismatic(x), six -> seven, locked = 2cm, stiffness = 3, rest = l)]
-    struct Robot<T> { m: T, l: T, i: T, g: T, x: T }"#;
+    #[joint(base: free, world -> hull)] #[body(hull, solid = sphere(1, 1))]
+    #[coordinate(sway: length, damping = 3)]
+    #[potential(k / 2 * (distance(tool, hull) - l)^2 + 3J * cos(d) + 2N * base.z)]
+    #[dissipation(2Nms / 2 * (dot(d) - base.wx)^2 + r * sqrt(dot(b)^2 + 1e-4))]
+    #[kinetic(m / 2 * (dot(b)^2 + dot(sway)^2 + 2 * dot(z(tool)) * dot(x(six))) / (1 + sin(d)^-2))]
+    struct Robot<T> { m: T, l: T, i: T, g: T, x: T, k: T, r: T }"#;
 
 /// All token streams with one token left out, doubled, or changed for another one.
 fn mutations(tokens: &proc_macro2::TokenStream) -> Vec<proc_macro2::TokenStream> {

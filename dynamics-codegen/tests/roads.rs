@@ -12,7 +12,7 @@ use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
 
 mod random;
 
-use random::{SHAPES, Shape, State, state};
+use random::{SHAPES, Shape, State, state, with_terms};
 
 /// Two ways to one number in doubles. The trees have up to 7 links, so up to some 10³ rounded operations of
 /// 1e-16 each lie on a path, most of them averaging out; the worst seen here is 2e-14.
@@ -26,6 +26,10 @@ fn for_each_state(check: impl Fn(&State)) {
     for seed in 0..60 {
         let n = 1 + seed as usize % 7;
         check(&state(seed, n, SHAPES[seed as usize % 3]));
+    }
+    for seed in 0..24 {
+        let n = 1 + seed as usize % 4;
+        check(&with_terms(state(200 + seed, n, SHAPES[seed as usize % 3]), seed));
     }
 }
 
@@ -142,6 +146,15 @@ fn oracle_agrees_with_lagrange() {
     }
 }
 
+/// Dual numbers and quadratic forms, and derivatives of expressions.
+#[test]
+fn oracle_agrees_with_lagrange_on_terms_of_the_energies() {
+    for seed in 0..36 {
+        let n = 1 + seed as usize % 3;
+        agrees_with_lagrange(&with_terms(state(300 + seed, n, SHAPES[seed as usize % 3]), seed));
+    }
+}
+
 #[test]
 fn oracle_agrees_with_lagrange_on_an_arm_of_seven_joints() {
     agrees_with_lagrange(&state(7, 7, Shape::Chain));
@@ -183,7 +196,8 @@ fn coriolis_matrix_gives_the_bias_and_half_its_derivative() {
         let C = oracle.coriolis_matrix(q, v);
         let bias = plus(&plus(&times(&C, v), &oracle.gravity_forces(q)), &oracle.passive_forces(q, v));
         assert_close("C·v + G", &bias, &oracle.bias_forces(q, v), ROUNDING);
-        let has_passive = tree.links.iter().any(|link| link.passive.damping != 0.0);
+        let has_passive =
+            tree.links.iter().any(|link| link.passive.damping != 0.0) || !tree.terms.dissipation.is_empty();
         if has_passive || !tree.is_one_dof() {
             // Dampers add to ∂τ/∂v, and torsion parts it from 2C; differences check it there.
             return;

@@ -11,7 +11,7 @@ use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number};
 
 mod random;
 
-use random::{SHAPES, State, state};
+use random::{SHAPES, State, state, with_terms};
 
 /// Two ways of some hundred operations each; mass matrices of these trees have conditions of some thousands.
 const ROUNDING: f64 = 1e-10;
@@ -51,6 +51,21 @@ fn programs_compute_what_the_oracle_says_of_random_trees() {
         let graph = Graph::new();
         let model = model_of(&tree, seed);
         let compiled = compile(&model, &graph, &all_methods(tree.frames.len()), RunTime::Core);
+        let found = disagreements(&model, &compiled);
+        let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
+        assert!(found.is_empty(), "tree {seed} of {motions:?}: {found:?}");
+    }
+}
+
+/// Terms in the energies couple what the tree does not, and their derivatives are in every method.
+#[test]
+fn programs_compute_what_the_oracle_says_of_trees_with_terms() {
+    for seed in 0..36 {
+        let State { tree, .. } =
+            with_terms(state(1200 + seed, 1 + seed as usize % 6, SHAPES[seed as usize % 3]), seed);
+        let graph = Graph::new();
+        let model = model_of(&tree, seed);
+        let compiled = compile(&model, &graph, &all_methods(0), RunTime::Core);
         let found = disagreements(&model, &compiled);
         let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
         assert!(found.is_empty(), "tree {seed} of {motions:?}: {found:?}");

@@ -64,8 +64,8 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
 
     /// The passive joint forces of damping, friction and springs, NV, on the left-hand side.
     ///
-    /// `damping·v + friction·v/√(v² + friction_speed²) + stiffness·(q − rest)`, for each joint that has them; zero
-    /// as provided. Armature is no force, but part of M.
+    /// `damping·v + friction·v/√(v² + friction_speed²) + stiffness·(q − rest)`, for each joint that has them, and `∂D/∂v` of
+    /// the robot's own `#[dissipation(…)]`s; zero as provided. Armature is no force, but part of M.
     #[inline]
     fn passive_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV> {
         let _ = (q, v);
@@ -89,7 +89,8 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// The kinetic energy `T = ½ vᵀ·M(q)·v`, in J.
     fn kinetic_energy(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> T;
 
-    /// The potential energy `V(q)` of gravity, in J, zero where all centres of mass are at the world's origin.
+    /// The potential energy `V(q)`, in J: of gravity, zero where all centres of mass are at the world's origin, and of the
+    /// robot's own `#[potential(…)]`s.
     fn potential_energy(&self, q: &SVector<T, NQ>) -> T;
 
     /// The elastic energy of the springs in joints, `Σ ½ stiffness·(q − rest)²`, in J; zero as provided.

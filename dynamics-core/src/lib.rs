@@ -20,7 +20,7 @@
 //! | `G` | ∂V/∂q, on the left-hand side: the forces that hold the robot still |
 //! | `tau` | positive along the joint's axis; vᵀτ is the power put in |
 //! | passive forces | of damping, friction and springs, on the left-hand side, beside `G`; armature is part of `M` |
-//! | `V` | of gravity alone; the energy of springs is apart, and part of every total |
+//! | `V` | of gravity, and of the robot's own potentials; the energy of springs in joints is apart, and part of every total |
 //! | six-vectors | linear first, then angular |
 //! | quaternions | i, j, k, w, of unit length; before them, in a free joint, the position |
 //! | velocity of a free joint | the twist of the body, in the body |

@@ -23,7 +23,8 @@ use crate::scalar::Scalar;
 /// C. Atkeson, C. An, J. Hollerbach, *Estimation of inertial parameters of manipulator loads and links*, Int. J.
 /// Robotics Research 5 (1986) 101–119.
 pub trait Regressor<T: Scalar, const NQ: usize, const NV: usize, const NP: usize> {
-    /// The regressor `Y(q,v,a)`, NV×NP, with `τ = Y·π`; it depends on geometry and gravity alone.
+    /// The regressor `Y(q,v,a)`, NV×NP, with `τ = Y·π`; it depends on geometry and gravity alone, and in
+    /// the columns of terms in the energies, whose parameters are 1, on these.
     fn regressor(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>, a: &SVector<T, NV>) -> SMatrix<T, NV, NP>;
 
     /// The parameters `π` that the robot has now, NP.

@@ -54,9 +54,10 @@ use proc_macro::TokenStream;
 /// ```text
 /// value   = term (("+" | "-") term)*
 /// term    = factor (("*" | "/") factor)*
-/// factor  = "-" factor | "(" value ")" | ("sin" | "cos" | "sqrt") "(" value ")" | field | "pi" | number
+/// factor  = "-" factor | atom ["^" whole number]
+/// atom    = "(" value ")" | ("sin" | "cos" | "sqrt") "(" value ")" | field | "pi" | number
 /// number  = a decimal literal of Rust, directly followed by a unit or by nothing
-/// unit    = m cm mm um km  kg g t  s ms  rad deg  N Nm
+/// unit    = m cm mm um km  kg g t  s ms  rad deg  N Nm  Nms N_per_m Ns_per_m kg_m2 J W
 /// vector  = "[" value "," value "," value "]"
 /// axis    = "x" | "y" | "z" | "-x" | "-y" | "-z" | vector of numbers, of any length but zero
 /// ```
@@ -204,6 +205,84 @@ use proc_macro::TokenStream;
 /// | `rod(m, length, axis)` | without thickness; `axis` as above |
 /// | `point(m)` | |
 ///
+/// # `#[potential(…)]`, `#[dissipation(…)]`, `#[kinetic(…)]`
+///
+/// Terms of a Lagrangian of one's own, beside the bodies' energies, as many lines of each as there are terms:
+///
+/// | | adds to | unit | in the equations |
+/// |---|---|---|---|
+/// | `potential(…)` | `V`, of coordinates alone | J | `∂V/∂q` is in `G` |
+/// | `dissipation(…)` | Rayleigh's `D`, of speeds, and coordinates | W | `∂D/∂v` is in the passive forces |
+/// | `kinetic(…)` | `T`, quadratic in speeds, coefficients of coordinates | J | `M`, and Levi-Civita's `C` of all of `T` |
+///
+/// Values as above, and besides in the place of an atom:
+///
+/// | | |
+/// |---|---|
+/// | `theta` | the coordinate of a joint of one degree of freedom, rad or m; of one that follows another or is locked too |
+/// | `base.x` | one of several: by the parts in `Mechanism::COORDINATE_NAMES`, but for quaternions |
+/// | `z(body)`, `x(body)`, `y(body)` | where the origin of a body's frame is in the world, m |
+/// | `distance(a, b)` | between the origins of two bodies' frames, or of one and `world`, m |
+/// | `dot(…)` | how fast any of these, or an expression of them, changes: `dot(r)`, `dot(r * sin(theta))` |
+/// | `base.wx` | a speed of a ball or a free joint, by the parts in `Mechanism::SPEED_NAMES` |
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// A trolley on a rail, and a load below it that a spring holds: a bungee from the hook to the load.
+/// #[derive(Dynamics)]
+/// #[joint(x: prismatic(x), world -> trolley)]
+/// #[body(trolley, solid = point(10kg))]
+/// #[joint(hook_joint: fixed, trolley -> hook, at = [0, 0, -0.2])]
+/// #[joint(bob: translation, world -> load)]
+/// #[body(load, solid = point(m))]
+/// #[potential(k / 2 * (distance(hook, load) - 1m)^2)]
+/// #[dissipation(0.4Ns_per_m / 2 * dot(distance(hook, load))^2)]
+/// struct Bungee<T> {
+///     m: T,
+///     k: T,
+/// }
+///
+/// let (robot, below) = (Bungee { m: 2.0, k: 50.0 }, 0.2 + 1.0 + 2.0 * 9.81 / 50.0);
+/// let at_rest = robot.gravity_forces(&SVector::from([0.0, 0.0, 0.0, -below]));
+/// assert!(at_rest.norm() < 1e-12);
+/// ```
+///
+/// Bodies of any kind may be named, also frames that a fixed joint carries. A distance has no derivative where its two
+/// points are one; its even powers have: a spring of no length is `k / 2 * distance(a, b)^2`. Numbers that are no plain
+/// ones have a unit, as `0.4Ns_per_m` has: a factor without one is a plain number.
+///
+/// Fields must be such that `M` is positive definite, and that dissipation takes energy. Terms have no mass: centres of
+/// mass, momenta and frames know nothing of them. In `τ = Y·π` each has a column, `potential.1` and so on in the order of
+/// the lines, whose parameter is 1; with it the regressor explains all forces, without it only those of bodies and joints.
+/// (It may be a combination of others, also among base parameters: a kinetic term can be as the mass of a body is.)
+/// Robots that are so long that a method is a recursion over a table of links take no terms in it.
+///
+/// # `#[coordinate(name: angle)]`, `#[coordinate(name: length)]`
+///
+/// A coordinate without a body, for systems that are no tree: what moves is said by terms. It has the keys of a joint of
+/// one degree of freedom, but no place. `armature` is an inertia that is constant.
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// /// A bob on a spring that swings: the elastic pendulum, by its Lagrangian.
+/// #[derive(Dynamics)]
+/// #[coordinate(theta: angle)]
+/// #[coordinate(r: length, damping = 0.1)]
+/// #[kinetic(m / 2 * (dot(r)^2 + r^2 * dot(theta)^2))]
+/// #[potential(k / 2 * (r - l)^2 - m * g * r * cos(theta))]
+/// struct ElasticPendulum<T> {
+///     m: T,
+///     k: T,
+///     l: T,
+///     g: T,
+/// }
+///
+/// let robot = ElasticPendulum { m: 1.0, k: 40.0, l: 0.5, g: 9.81 };
+/// let (q, v) = (SVector::from([0.3, 0.7]), SVector::from([2.0, -0.5]));
+/// let coriolis = robot.coriolis_matrix(&q, &v) * v;
+/// assert!((coriolis - SVector::from([2.0 * 0.7 * -0.5 * 2.0, -0.7 * 4.0])).norm() < 1e-14); // 2 m r r' θ', −m r θ'²
+/// ```
+///
 /// # `#[dynamics(…)]`
 ///
 /// | key | | default |
@@ -298,13 +377,14 @@ use proc_macro::TokenStream;
 ///
 /// | of | |
 /// |---|---|
-/// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `KeyMissing`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `FieldUnknown` |
+/// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `KeyMissing`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `ExponentInvalid`, `FieldUnknown` |
 /// | the struct | `StructNeeded`, `FieldTypeUnsupported`, `FieldTypesDiffer` |
 /// | names | `NameDuplicate`, `NamesCollide`, `NameReserved` |
 /// | the tree | `JointMissing`, `DegreesOfFreedomMissing`, `JointsTooMany`, `ParentUnknown`, `BodyMissing`, `WorldIsChild`, `ParentTwice`, `Cycle`, `BodyUnreachable`, `ParentAfterChild` |
 /// | joints | `JointKindUnknown`, `JointUnknown`, `KeyNotOfKind`, `AxisMissing`, `AxisUnneeded`, `AxisZero`, `AxesParallel`, `AxisNotConstant`, `RatioZero`, `MimicUnknown`, `MimicUnfit`, `MimicCycle`, `PassiveNegative`, `LimitsUnneeded`, `LimitsInverted`, `LimitNegative`, `ConstantNeeded`, `AngleLooksLikeDegrees` |
 /// | bodies | `InertiaMissing`, `MassMissing`, `MassNegative`, `SizeNegative`, `InertiaNotSymmetric`, `InertiaOrder`, `InertiaNonphysical`, `MovesNoMass`, `MovesNoInertia`, `MassMatrixSingular` |
 /// | quantities | `UnitMismatch`, `UnitsDiffer`, `DivisionByZero`, `RootOfNegative` |
+/// | terms | `NameUnknown`, `NameAmbiguous`, `FrameUnknown`, `CoordinateUnfit`, `SpeedMisplaced`, `NotQuadratic`, `KineticNegative`, `ForceAtRest`, `TermIdle`, `TermsUnsupported` |
 /// | options | `OutputUnknown`, `AllowUnknown` |
 /// | files | `FileUnreadable`, `PathOutside`, `FileTooLarge`, `XmlInvalid`, `RobotMissing`, `XacroLeft`, `ElementMissing`, `NumberInvalid`, `ChildUnknown`, `RootsSeveral`, `LimitsMissing`, `PassiveUnsupported`; with the file's line and column |
 /// | the compiler | `SelfCheckFailed`: the finished code is compared with a plain recursion, and differs |
@@ -319,7 +399,7 @@ use proc_macro::TokenStream;
 ///     r: T,
 /// }
 /// ```
-#[proc_macro_derive(Dynamics, attributes(dynamics, joint, body))]
+#[proc_macro_derive(Dynamics, attributes(dynamics, joint, body, coordinate, potential, dissipation, kinetic))]
 pub fn derive_dynamics(input: TokenStream) -> TokenStream {
     dynamics_codegen::derive(input.into(), read).into()
 }

@@ -80,6 +80,17 @@ fn of(formula: &Formula) -> Result<Value, Diagnostic> {
             }
             product
         }
+        FormulaKind::Power(base, exponent) => {
+            let (value, unit) = of(base)?;
+            let power = (0..exponent.unsigned_abs()).fold(Number::ONE, |power, _| power * value);
+            let power = match *exponent < 0 {
+                true => Number::ONE.checked_div(power).ok_or_else(|| out_of_range(base))?,
+                false => power,
+            };
+            (power, unit.map(|unit| unit.map(|own| own * exponent)))
+        }
+        // No value is read with them.
+        FormulaKind::Moving(_) => return Err(out_of_range(formula)),
         FormulaKind::Call(function, argument) => {
             let (value, _) = of(argument)?;
             let value = match function {

@@ -60,9 +60,12 @@ catalogue! {
     /// A number too large or too small for a double.
     NumberOutOfRange => "use a number whose size is between 1e-300 and 1e300",
     /// A unit that is not known.
-    UnitUnknown => "use one of m, cm, mm, um, km, kg, g, t, s, ms, rad, deg, N, Nm",
+    UnitUnknown => "use one of m, cm, mm, um, km, kg, g, t, s, ms, rad, deg, N, Nm, Nms, N_per_m, \
+         Ns_per_m, kg_m2, J, W",
     /// A function that is not known.
     FunctionUnknown => "use one of sin, cos, sqrt",
+    /// A power of a fraction, of a field, or of more than 16.
+    ExponentInvalid => "write a whole number from -16 to 16, as in `r^2`, and `sqrt(r)` for a root",
     /// A name that is no field of the struct.
     FieldUnknown => "name a field of the struct, or write a number",
     // The struct
@@ -170,6 +173,29 @@ catalogue! {
     DivisionByZero => "divide by something other than zero",
     /// The square root of a negative number.
     RootOfNegative => "take the root of a number that is not negative",
+    // Terms of the energies
+    /// A name in a term that is neither a field nor a joint.
+    NameUnknown => "name a field of the struct, or a joint, whose coordinate it is then",
+    /// A name in a term that is both a field and a joint.
+    NameAmbiguous => "give the field or the joint another name",
+    /// A body in a term that does not exist.
+    FrameUnknown => "name a body, a frame that a fixed joint carries, or `world`",
+    /// A joint in a term that has no such coordinate, or more than one.
+    CoordinateUnfit => "name one coordinate of a joint, as in `theta` or `base.x`",
+    /// A speed in a potential, or within a rate.
+    SpeedMisplaced => "write what depends on speeds as `#[dissipation(…)]` or `#[kinetic(…)]`",
+    /// A kinetic term that is no quadratic form of the speeds.
+    NotQuadratic => "add up products of two speeds, each times anything of coordinates and fields, as in \
+         `m / 2 * (dot(r)^2 + r^2 * dot(theta)^2)`",
+    /// A term, or a part of one, on which nothing that moves has an influence.
+    TermIdle => "let it depend on what moves, or leave it out",
+    /// A dissipation whose derivative by the speeds is not zero at rest, or none.
+    ForceAtRest => "let it be least at rest, as a square is, and smooth a magnitude: `sqrt(dot(r)^2 + 1e-4)`; a force that \
+         does not depend on speeds is one of a potential",
+    /// Kinetic terms by which some motion would have no energy, or less.
+    KineticNegative => "check the signs of the kinetic terms, and whether their sum is positive for all speeds",
+    /// A method that is a recursion over a table of links, in a robot with terms.
+    TermsUnsupported => "leave out what is too long: name the others in `#[dynamics(outputs(…))]`",
     // Options
     /// A method that does not exist.
     OutputUnknown => "name methods of the `Dynamics` traits",

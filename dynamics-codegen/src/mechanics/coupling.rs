@@ -66,11 +66,19 @@ impl<S: Scalar> Coupling<S> {
 }
 
 /// For each speed the largest one before it that its elimination from the mass matrix touches: the parents by which
-/// the matrix is factored. Without followers, the column before it on the way to the base.
+/// the matrix is factored. Without followers, the column before it on the way to the base. `added` are the pairs of speeds
+/// that kinetic terms couple.
 ///
 /// J. Liu, *The role of elimination trees in sparse factorization*, 1990.
-pub fn elimination_parents<S: Scalar>(columns: &[Column<S>], dof: usize) -> Vec<Option<usize>> {
+pub fn elimination_parents<S: Scalar>(
+    columns: &[Column<S>],
+    dof: usize,
+    added: &[(usize, usize)],
+) -> Vec<Option<usize>> {
     let mut touched = vec![vec![false; dof]; dof];
+    for &(one, other) in added {
+        touched[one.max(other)][one.min(other)] = true;
+    }
     for column in columns {
         for k in std::iter::successors(column.parent, |&k| columns[k].parent) {
             let (one, other) = (column.speed, columns[k].speed);

@@ -18,6 +18,7 @@ use super::regressor::{Regressed, RegressorColumn};
 use super::regroup::regroup;
 use super::rest::rest;
 use super::rnea;
+use super::terms::Added;
 use super::unit;
 use crate::model::Model;
 use crate::symbolic::{Differentiator, Expr, Graph, Number};
@@ -57,6 +58,10 @@ pub struct Derivation<'g> {
     acts: Vec<bool>,
     /// The coordinates that begin unit quaternions.
     quaternions: Vec<usize>,
+    /// The speeds that kinetic terms couple.
+    coupled: Vec<(usize, usize)>,
+    /// What terms of the energies add, in the robot's own speeds.
+    added: Option<Added<'g>>,
     /// Derived when first asked for.
     motions: OnceCell<frames::LinkMotions<Expr<'g>>>,
     regressor: OnceCell<Vec<RegressorColumn<Expr<'g>>>>,
@@ -69,6 +74,7 @@ impl<'g> Derivation<'g> {
         let inputs = Inputs::of(model);
         let kinematic = regauge(&model.tree);
         let coupling = Coupling::of(&kinematic, inputs.dof);
+        let added = Added::of(&model.tree, &kinematic, inputs, graph);
         Self {
             inputs,
             graph,
@@ -84,6 +90,8 @@ impl<'g> Derivation<'g> {
             bodies: model.links.iter().map(|link| link.body).collect(),
             acts: model.links.iter().map(|link| link.acts).collect(),
             quaternions: model.tree.quaternions().collect(),
+            coupled: model.tree.coupled_by_terms(),
+            added,
             motions: OnceCell::new(),
             regressor: OnceCell::new(),
             base_regressor: OnceCell::new(),
@@ -120,15 +128,19 @@ impl<'g> Derivation<'g> {
     /// By factoring the mass matrix, by articulated bodies, or both where either may win.
     fn forward_dynamics_alternatives(&self) -> Vec<Vec<Block<'g>>> {
         let chain = self.longest_chain();
+        let has_kinetic = self.added.as_ref().is_some_and(Added::has_kinetic);
         let mut alternatives = Vec::new();
-        if chain <= LONGEST_FOR_FACTORING {
+        if chain <= LONGEST_FOR_FACTORING || has_kinetic {
             alternatives.push(self.blocks(Method::ForwardDynamics));
         }
         if self.is_small() {
             alternatives.extend(self.blocks_by_matrices(Method::ForwardDynamics));
         }
-        if chain >= SHORTEST_FOR_ARTICULATED_BODIES && self.coupling.is_identity() {
-            let passive = passive::forces(&self.dynamic, &self.q, &self.v);
+        if chain >= SHORTEST_FOR_ARTICULATED_BODIES && self.coupling.is_identity() && !has_kinetic {
+            let mut passive = passive::forces(&self.dynamic, &self.q, &self.v);
+            if let Some(added) = &self.added {
+                passive = sum(passive, added.forces(&self.at_no_acceleration()));
+            }
             let driving: Vec<Expr<'g>> = difference(&self.tau, passive);
             let a = aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &driving);
             alternatives.push(vec![vector("a", a)]);
@@ -163,12 +175,13 @@ impl<'g> Derivation<'g> {
             Method::ForwardDynamics => vec![vector("a", self.acceleration(self.bias_by_matrices()).0)],
             Method::KineticEnergy => vec![scalar(self.kinetic_energy_by_matrices())],
             Method::Lagrangian => {
-                let potential = energy::potential_energy(&self.dynamic, &self.q);
-                vec![scalar(self.kinetic_energy_by_matrices() - potential)]
+                vec![scalar(self.kinetic_energy_by_matrices() - self.potential_energy())]
             }
-            Method::InverseDynamicsDerivatives => self.by_chain_rule(&self.inverse_dynamics(&self.a)),
+            Method::InverseDynamicsDerivatives => {
+                self.by_chain_rule(&self.inverse_dynamics(&self.accelerations()))
+            }
             Method::InverseDynamicsWithDerivatives => {
-                let tau = self.inverse_dynamics(&self.a);
+                let tau = self.inverse_dynamics(&self.accelerations());
                 let derivatives = self.by_chain_rule(&tau);
                 with_derivatives(vector("tau", tau), derivatives)
             }
@@ -202,15 +215,13 @@ impl<'g> Derivation<'g> {
             Method::GravityForces => vec![vector("g", self.gravity_forces())],
             Method::BiasForces => vec![vector("h", self.bias_forces())],
             Method::PassiveForces => vec![vector("f", self.passive_forces())],
-            Method::InverseDynamics => vec![vector("tau", self.inverse_dynamics(&self.a))],
+            Method::InverseDynamics => vec![vector("tau", self.inverse_dynamics(&self.accelerations()))],
             Method::ForwardDynamics => vec![vector("a", self.forward_dynamics().0)],
             Method::InverseMassMatrix => vec![square("inverse", self.factor().inverse())],
-            Method::KineticEnergy => vec![scalar(energy::kinetic_energy(tree, q, v))],
-            Method::PotentialEnergy => vec![scalar(energy::potential_energy(tree, q))],
+            Method::KineticEnergy => vec![scalar(self.kinetic_energy())],
+            Method::PotentialEnergy => vec![scalar(self.potential_energy())],
             Method::ElasticEnergy => vec![scalar(passive::elastic_energy(tree, q))],
-            Method::Lagrangian => {
-                vec![scalar(energy::kinetic_energy(tree, q, v) - energy::potential_energy(tree, q))]
-            }
+            Method::Lagrangian => vec![scalar(self.kinetic_energy() - self.potential_energy())],
             Method::EquationsOfMotion => vec![
                 square("mass_matrix", self.mass_matrix()),
                 square("coriolis_matrix", self.coriolis_matrix()),
@@ -218,7 +229,7 @@ impl<'g> Derivation<'g> {
             ],
             Method::InverseDynamicsDerivatives => self.derivatives_of_inverse_dynamics(),
             Method::InverseDynamicsWithDerivatives => {
-                let tau = vector("tau", self.inverse_dynamics(&self.a));
+                let tau = vector("tau", self.inverse_dynamics(&self.accelerations()));
                 with_derivatives(tau, self.derivatives_of_inverse_dynamics())
             }
             Method::ForwardDynamicsDerivatives => self.forward_dynamics_derivatives().1,
@@ -260,7 +271,7 @@ impl<'g> Derivation<'g> {
     }
 
     fn derivatives_of_inverse_dynamics(&self) -> Vec<Block<'g>> {
-        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.a);
+        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.accelerations());
         self.derivative_blocks(dtau_dq, dtau_dv)
     }
 
@@ -275,47 +286,79 @@ impl<'g> Derivation<'g> {
         self.derivative_blocks(with_respect_to(Argument::Q), with_respect_to(Argument::V))
     }
 
+    fn kinetic_energy(&self) -> Expr<'g> {
+        let of_bodies = energy::kinetic_energy(&self.dynamic, &self.q, &self.v);
+        self.added.as_ref().map_or(of_bodies, |added| of_bodies + added.kinetic)
+    }
+
+    fn potential_energy(&self) -> Expr<'g> {
+        let of_bodies = energy::potential_energy(&self.dynamic, &self.q);
+        self.added.as_ref().map_or(of_bodies, |added| of_bodies + added.potential)
+    }
+
     fn mass_matrix(&self) -> Square<Expr<'g>> {
         let mut m = composite::mass_matrix(&self.dynamic, &self.q);
         add_to_diagonal(&mut m, passive::armatures(&self.dynamic));
-        self.coupling.gather_both(m)
+        let m = self.coupling.gather_both(m);
+        self.added.iter().fold(m, |m, added| sums(m, &added.mass))
     }
 
     fn coriolis_matrix(&self) -> Square<Expr<'g>> {
-        self.coupling.gather_both(composite::coriolis_matrix(&self.dynamic, &self.q, &self.v))
+        let c = self.coupling.gather_both(composite::coriolis_matrix(&self.dynamic, &self.q, &self.v));
+        self.added.iter().fold(c, |c, added| sums(c, &added.coriolis))
     }
 
     fn gravity_forces(&self) -> Vec<Expr<'g>> {
-        self.coupling.gather(rnea::inverse_dynamics(&self.dynamic, &self.q, &self.rest, &self.rest))
+        let g = self.coupling.gather(rnea::inverse_dynamics(&self.dynamic, &self.q, &self.rest, &self.rest));
+        self.added.iter().fold(g, |g, added| sum(g, added.gravity.clone()))
     }
 
     fn passive_forces(&self) -> Vec<Expr<'g>> {
-        self.coupling.gather(passive::forces(&self.dynamic, &self.q, &self.v))
+        let f = self.coupling.gather(passive::forces(&self.dynamic, &self.q, &self.v));
+        self.added.iter().fold(f, |f, added| sum(f, added.passive.clone()))
     }
 
     fn bias_forces(&self) -> Vec<Expr<'g>> {
-        self.inverse_dynamics(&self.rest)
+        self.inverse_dynamics(&self.at_no_acceleration())
     }
 
-    /// τ at the accelerations `a` of the columns.
+    /// The robot's own accelerations.
+    fn accelerations(&self) -> Vec<Expr<'g>> {
+        self.inputs.vector(self.graph, Argument::A)
+    }
+
+    fn at_no_acceleration(&self) -> Vec<Expr<'g>> {
+        vec![Expr::ZERO; self.inputs.dof]
+    }
+
+    /// τ at the robot's accelerations `a`.
     fn inverse_dynamics(&self, a: &[Expr<'g>]) -> Vec<Expr<'g>> {
-        let (tree, q, v) = (&self.dynamic, &self.q, &self.v);
-        let rotors = passive::armatures(tree).into_iter().zip(a).map(|(armature, &a)| armature * a);
-        let bodies = rnea::inverse_dynamics(tree, q, v, a);
-        self.coupling.gather(sum(sum(bodies, rotors.collect()), passive::forces(tree, q, v)))
+        let (tree, q, v, of_columns) = (&self.dynamic, &self.q, &self.v, self.coupling.spread(a));
+        let rotors = passive::armatures(tree).into_iter().zip(&of_columns).map(|(armature, &a)| armature * a);
+        let bodies = rnea::inverse_dynamics(tree, q, v, &of_columns);
+        let tau = self.coupling.gather(sum(sum(bodies, rotors.collect()), passive::forces(tree, q, v)));
+        self.added.iter().fold(tau, |tau, added| sum(tau, added.forces(a)))
     }
 
-    /// `∂τ/∂q` and `∂τ/∂v` at the accelerations `a` of the columns.
+    /// `∂τ/∂q` and `∂τ/∂v` at the robot's accelerations `a`.
     fn inverse_dynamics_derivatives(&self, a: &[Expr<'g>]) -> (Square<Expr<'g>>, Square<Expr<'g>>) {
         let (tree, q, v) = (&self.dynamic, &self.q, &self.v);
-        let mut derivatives = composite::inverse_dynamics_derivatives(tree, q, v, a);
+        let mut derivatives = composite::inverse_dynamics_derivatives(tree, q, v, &self.coupling.spread(a));
         add_to_diagonal(&mut derivatives.dtau_dq, passive::stiffnesses(tree));
         add_to_diagonal(&mut derivatives.dtau_dv, passive::dampings(tree, q, v));
-        (self.coupling.gather_both(derivatives.dtau_dq), self.coupling.gather_both(derivatives.dtau_dv))
+        let gathered = [derivatives.dtau_dq, derivatives.dtau_dv].map(|m| self.coupling.gather_both(m));
+        let [dtau_dq, dtau_dv] = gathered;
+        match &self.added {
+            None => (dtau_dq, dtau_dv),
+            Some(added) => {
+                let (by_q, by_v) = added.derivatives(a);
+                (sums(dtau_dq, &by_q), sums(dtau_dv, &by_v))
+            }
+        }
     }
 
     fn factor(&self) -> Factor<Expr<'g>> {
-        let parents = elimination_parents(&self.dynamic.columns, self.inputs.dof);
+        let parents = elimination_parents(&self.dynamic.columns, self.inputs.dof, &self.coupled);
         Factor::of(&self.mass_matrix(), parents)
     }
 
@@ -332,7 +375,7 @@ impl<'g> Derivation<'g> {
     /// The acceleration that τ causes, and there `∂a/∂q = −M⁻¹ ∂τ/∂q` and `∂a/∂v = −M⁻¹ ∂τ/∂v`.
     fn forward_dynamics_derivatives(&self) -> (Vec<Expr<'g>>, Vec<Block<'g>>) {
         let (a, factor) = self.forward_dynamics();
-        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&self.coupling.spread(&a));
+        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&a);
         let negated =
             |m: Square<Expr<'g>>| m.into_iter().map(|row| row.into_iter().map(|x| -x).collect()).collect();
         let derivatives = vec![
@@ -362,7 +405,11 @@ impl<'g> Derivation<'g> {
 
     /// The columns of the regressor.
     pub fn regressor(&self) -> &[RegressorColumn<Expr<'g>>] {
-        self.regressor.get_or_init(|| self.regressed().columns())
+        self.regressor.get_or_init(|| {
+            let mut columns = self.regressed().columns();
+            columns.extend(self.columns_of_terms());
+            columns
+        })
     }
 
     /// The columns of the regressor of base parameters.
@@ -370,8 +417,16 @@ impl<'g> Derivation<'g> {
         self.base_regressor.get_or_init(|| {
             let is_body: Vec<bool> = self.bodies.iter().map(Option::is_some).collect();
             let symbols = Symbols { graph: self.graph, inputs: self.inputs, quaternions: &self.quaternions };
-            base_columns(&self.regressed(), &is_body, &symbols)
+            let mut columns = base_columns(&self.regressed(), &is_body, &symbols);
+            columns.extend(self.columns_of_terms());
+            columns
         })
+    }
+
+    /// Of terms of the energies a column each: what it adds, for a parameter of one.
+    fn columns_of_terms(&self) -> Vec<RegressorColumn<Expr<'g>>> {
+        let forces = self.added.iter().flat_map(|added| added.forces_of_terms(&self.accelerations()));
+        forces.map(|(name, forces)| RegressorColumn { name, value: Expr::ONE, forces }).collect()
     }
 
     fn regressed(&self) -> Regressed<'_, Expr<'g>> {
@@ -397,6 +452,10 @@ fn times<'g>(m: &Square<Expr<'g>>, x: &[Expr<'g>]) -> Vec<Expr<'g>> {
 
 fn sum<'g>(a: Vec<Expr<'g>>, b: Vec<Expr<'g>>) -> Vec<Expr<'g>> {
     a.into_iter().zip(b).map(|(a, b)| a + b).collect()
+}
+
+fn sums<'g>(a: Square<Expr<'g>>, b: &Square<Expr<'g>>) -> Square<Expr<'g>> {
+    a.into_iter().zip(b).map(|(a, b)| sum(a, b.clone())).collect()
 }
 
 fn difference<'g>(a: &[Expr<'g>], b: Vec<Expr<'g>>) -> Vec<Expr<'g>> {

@@ -15,10 +15,12 @@
 //! Lagrange-Eulerschen Gleichungen der Mechanik*, 1904.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use super::along::{Along, By, dot, unit};
 use super::plain::{bracket, link_poses};
+use super::terms::{Energy, InWorld, energies};
 use crate::model::Tree;
 use crate::spatial::{Pose, PseudoInertia};
-use crate::symbolic::{Differentiator, Expr, Graph, Number, SymbolId};
+use crate::symbolic::{Expr, Graph, Number, SymbolId};
 
 /// The inputs that stand for coordinates, speeds and accelerations.
 #[derive(Clone, Copy, Debug)]
@@ -56,9 +58,16 @@ pub fn derive<'g>(graph: &'g Graph, tree: &Tree<Expr<'g>>, at: Coordinates) -> L
     let mut by_v = By::new(graph, at.v);
 
     let X = link_poses(tree, &q);
-    let T = kinetic_energy(tree, &X, &v, &mut along);
-    let V = potential_energy(tree, &X);
-    let (U, D) = springs_and_dissipation(tree, &q, &v);
+    let mut T = kinetic_energy(tree, &X, &v, &mut along);
+    let mut V = potential_energy(tree, &X);
+    let (U, mut D) = springs_and_dissipation(tree, &q, &v);
+    for (_, term) in energies(&tree.terms, &v, &mut along, &InWorld { tree, links: &X }) {
+        match term {
+            Energy::Potential(term) => V = V + term,
+            Energy::Dissipation(term) => D = D + term,
+            Energy::Kinetic(term) => T = T + term,
+        }
+    }
 
     let momentum = by_v.gradient(T);
     let M: Vec<Vec<_>> = momentum.iter().map(|&p| by_v.gradient(p)).collect();
@@ -78,43 +87,6 @@ pub fn derive<'g>(graph: &'g Graph, tree: &Tree<Expr<'g>>, at: Coordinates) -> L
         coriolis_matrix: C,
         gravity_forces: G,
         inverse_dynamics: tau,
-    }
-}
-
-fn unit<'g>(k: usize, n: usize) -> Vec<Expr<'g>> {
-    (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect()
-}
-
-/// Derivatives by each of several inputs.
-struct By<'g>(Vec<Differentiator<'g>>);
-
-impl<'g> By<'g> {
-    fn new(graph: &'g Graph, symbols: &[SymbolId]) -> Self {
-        Self(symbols.iter().map(|&symbol| Differentiator::new(graph, symbol)).collect())
-    }
-
-    fn gradient(&mut self, expr: Expr<'g>) -> Vec<Expr<'g>> {
-        self.0.iter_mut().map(|by| by.derivative(expr)).collect()
-    }
-}
-
-/// Derivatives along the directions in which the configuration moves at each unit speed.
-struct Along<'g> {
-    by_q: By<'g>,
-    /// The rates of the coordinates.
-    directions: Vec<Vec<Expr<'g>>>,
-}
-
-impl<'g> Along<'g> {
-    fn new(graph: &'g Graph, symbols: &[SymbolId], tree: &Tree<Expr<'g>>, q: &[Expr<'g>]) -> Self {
-        let n = tree.dof();
-        let directions = (0..n).map(|k| tree.configuration_rate(q, &unit(k, n)));
-        Self { by_q: By::new(graph, symbols), directions: directions.collect() }
-    }
-
-    fn gradient(&mut self, expr: Expr<'g>) -> Vec<Expr<'g>> {
-        let by_q = self.by_q.gradient(expr);
-        self.directions.iter().map(|direction| dot(&by_q, direction)).collect()
     }
 }
 
@@ -209,10 +181,6 @@ fn moments<'g>(body: &PseudoInertia<Expr<'g>>) -> [[Expr<'g>; 4]; 4] {
     let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.second.full().0;
     let [x, y, z] = body.first.0;
     [[xx, xy, xz, x], [xy, yy, yz, y], [xz, yz, zz, z], [x, y, z, body.mass]]
-}
-
-fn dot<'g>(a: &[Expr<'g>], b: &[Expr<'g>]) -> Expr<'g> {
-    a.iter().zip(b).fold(Expr::ZERO, |sum, (&x, &y)| sum + x * y)
 }
 
 fn half<'g>() -> Expr<'g> {

@@ -1,6 +1,7 @@
 //! From a tree to its equations. One algorithm, one file.
 
 pub mod aba;
+mod along;
 pub mod base_regressor;
 pub mod centroidal;
 pub mod columns;
@@ -23,4 +24,5 @@ pub mod rest;
 pub mod rnea;
 pub mod rotation;
 pub mod singular;
+pub mod terms;
 pub mod unit;

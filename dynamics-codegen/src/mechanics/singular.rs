@@ -30,6 +30,7 @@ pub fn idle_motion(model: &Model<'_>, graph: &Graph) -> Option<Vec<usize>> {
     let parents = elimination_parents(
         &columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive))),
         n,
+        &model.tree.coupled_by_terms(),
     );
     let motion_at = |state: usize| {
         // Irrational steps: no angle is like another, and none is a right one.

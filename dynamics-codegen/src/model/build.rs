@@ -8,9 +8,12 @@ use super::fields::{field_type, parameters};
 use super::placement::Geometry;
 use super::quantities::slots;
 use super::shapes::{pseudo_inertia, snap_of};
+use super::terms::{self, Meaning, Whereabouts};
 use super::topology::{Coordinate, Topology};
 use super::values::{Result, Values};
-use super::{Drive, Frame, JointInfo, Limits, Link, LinkInfo, Model, Motion, Passive, Tree, lines, physics};
+use super::{
+    Drive, Frame, JointInfo, Limits, Link, LinkInfo, Model, Motion, Passive, Terms, Tree, lines, physics,
+};
 use crate::diagnostics::Diagnostics;
 use crate::spatial::{Pose, PseudoInertia, Vector3};
 use crate::spec::{Formula, JointKeys, JointKind, JointSpec, RobotSpec, default_friction_speed};
@@ -22,8 +25,11 @@ use crate::symbolic::{Expr, Graph, Number};
 /// `#[body]` is where its joint was written.
 pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) -> Option<Model<'g>> {
     let before = diags.len();
-    let slots = slots(spec);
+    let mut slots = slots(spec);
     lines::check(spec, &slots, diags);
+    // A term that is none tells nothing of units.
+    let sound = terms::check(spec, diags);
+    slots.retain(|slot| !slot.is_term() || sound.iter().any(|term| std::ptr::eq(*term, slot.formula)));
     let values = Values::new(spec, &slots, graph, diags);
     let units = Units::infer(&values, &slots, diags);
     physics::check_numbers(spec, &slots, &values, diags);
@@ -89,7 +95,13 @@ impl<'g> Assembly<'_, 'g> {
         }
         let placed: Vec<_> = placed.into_iter().flatten().collect();
         let (sites, links) = self.links(&placed);
-        let mut tree = Tree { links, base: PseudoInertia::zero(), frames: vec![], gravity: gravity? };
+        let mut tree = Tree {
+            links,
+            base: PseudoInertia::zero(),
+            frames: vec![],
+            gravity: gravity?,
+            terms: Terms::none(),
+        };
         for (joint, mass) in masses.into_iter().enumerate() {
             let Some(mass) = mass else { continue };
             let mass = mass.transformed(sites[joint].pose);
@@ -99,7 +111,22 @@ impl<'g> Assembly<'_, 'g> {
             }
         }
         tree.frames = self.frames(&sites);
-        Some(tree)
+        tree.terms = self.terms(&tree.frames, diags);
+        (diags.len() == before).then_some(tree)
+    }
+
+    fn terms(&self, frames: &[Frame<Expr<'g>>], diags: &mut Diagnostics) -> Terms<Expr<'g>> {
+        if self.spec.terms.is_empty() {
+            return Terms::none();
+        }
+        let course = |joint: usize| {
+            let Course { start, ratio, offset } = self.course(joint)?;
+            Ok(Whereabouts { start: start.map(|Coordinate { q, v }| (q, v)), ratio, offset })
+        };
+        let courses = (0..self.spec.joints.len()).map(course).collect::<Result<Vec<_>>>();
+        let Some(courses) = diags.keep(courses) else { return Terms::none() };
+        let frame = |name: &str| frames.iter().position(|frame| frame.name == name);
+        Meaning { spec: self.spec, values: self.values, courses: &courses, frame: &frame }.terms(diags)
     }
 
     fn placed(&self, joint: usize) -> Result<Placed<'g>> {
@@ -183,6 +210,9 @@ impl<'g> Assembly<'_, 'g> {
     fn frames(&self, sites: &[Site<'g>]) -> Vec<Frame<Expr<'g>>> {
         let mut frames: Vec<(usize, Frame<_>)> = vec![];
         for ((joint, site), body) in self.spec.joints.iter().zip(sites).zip(&self.topology.body) {
+            if joint.is_bare {
+                continue;
+            }
             let line = body.map_or(joint.line, |body| self.spec.bodies[body].line);
             frames.push((line, Frame { name: joint.child.text.clone(), link: site.link, pose: site.pose }));
         }

@@ -8,7 +8,7 @@ use super::quantities::{Quantity, Slot};
 use super::unit_text::{angle_text, unit_text};
 use super::values::{Values, for_each_name};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
-use crate::spec::{Formula, FormulaKind, Function};
+use crate::spec::{Formula, FormulaKind, Function, Moving};
 use crate::symbolic::Number;
 
 /// The exponents of a unit: a constant, and multiples of the exponents of fields' units.
@@ -61,6 +61,8 @@ pub(super) struct Units<'a> {
     solved: Vec<Option<Exponents>>,
     /// The place that a bare field got its unit from.
     origins: Vec<Option<String>>,
+    /// Whether names may be those of joints.
+    is_term: bool,
 }
 
 /// The unit of an expression; `None` if it takes the unit of its place, as literals do.
@@ -70,14 +72,16 @@ impl<'a> Units<'a> {
     /// Solves for all units, and reports the contradictions.
     pub(super) fn infer(values: &'a Values<'a, 'a>, slots: &[Slot], diags: &mut Diagnostics) -> Self {
         let count = values.fields().len();
-        let mut units = Self { values, solved: vec![None; count], origins: vec![None; count] };
+        let mut units =
+            Self { values, solved: vec![None; count], origins: vec![None; count], is_term: false };
         // A field where a number is needed is a mistake already, and tells nothing of the field's unit.
-        let (bare, composed): (Vec<_>, Vec<_>) = slots
+        let (bare, composed): (Vec<&Slot>, Vec<&Slot>) = slots
             .iter()
             .filter(|slot| slot.constant.is_none() || !units.names_field(slot.formula))
             .partition(|slot| units.bare_field(slot.formula).is_some());
         let mut wrong = vec![];
         for slot in bare.into_iter().chain(composed) {
+            units.is_term = slot.is_term();
             let Err(mistake) = units.fits(slot, slot.formula) else { continue };
             // The entries of one list are wrong together, mostly.
             let list = (slot.owner, slot.key, slot.quantity);
@@ -141,6 +145,10 @@ impl<'a> Units<'a> {
                 mismatch.help(format!("write the number in {unit}, or without a unit"))
             }
             FormulaKind::Name(_) => self.explained(mismatch.help("use a field of its own here"), &[formula]),
+            _ if slot.is_term() && has_bare_factor(formula) => {
+                let help = "give numbers that are no plain ones their units, as in `20N_per_m`";
+                self.explained(mismatch.help(help), &[formula])
+            }
             _ => self.explained(mismatch, &[formula]),
         })
     }
@@ -149,7 +157,11 @@ impl<'a> Units<'a> {
     fn unit(&mut self, formula: &Formula) -> Result<Unit, Diagnostic> {
         match &formula.kind {
             FormulaKind::Number(_, unit) => Ok(unit.map(|unit| Exponents::of(unit.exponents))),
-            FormulaKind::Name(name) => Ok(self.values.field(name).map(Exponents::of_field)),
+            FormulaKind::Name(name) => {
+                let of_joint = || self.values.unit_of_coordinate(name).filter(|_| self.is_term);
+                let field = self.values.field(name).map(Exponents::of_field);
+                Ok(field.or_else(|| of_joint().map(Exponents::of)))
+            }
             FormulaKind::Negative(inner) => self.unit(inner),
             FormulaKind::Sum(terms) => {
                 let mut first: Option<(&Formula, Exponents)> = None;
@@ -172,7 +184,24 @@ impl<'a> Units<'a> {
                 Ok(product)
             }
             FormulaKind::Call(function, argument) => self.call(*function, argument),
+            FormulaKind::Power(base, exponent) => {
+                let unit = self.unit(base)?;
+                let exponent = Number::integer((*exponent).into());
+                Ok(unit.map(|unit| Exponents::none().plus(exponent, &unit)))
+            }
+            FormulaKind::Moving(moving) => self.moving(moving),
         }
+    }
+
+    fn moving(&mut self, moving: &Moving) -> Result<Unit, Diagnostic> {
+        Ok(match moving {
+            Moving::Part(joint, part) => self.values.unit_of_part(joint, part).map(Exponents::of),
+            Moving::Rate(of) => {
+                let unit = self.unit(of)?;
+                unit.map(|unit| unit.plus(Number::integer(-1), &Exponents::of([0, 0, 1])))
+            }
+            Moving::Distance(_) | Moving::Place(..) => Some(Exponents::of([0, 1, 0])),
+        })
     }
 
     fn call(&mut self, function: Function, argument: &Formula) -> Result<Unit, Diagnostic> {
@@ -266,6 +295,17 @@ impl<'a> Units<'a> {
         let reasons = reasons.take(4).collect::<Vec<_>>().join(", ");
         let general = diagnostic.help_text().to_owned();
         if reasons.is_empty() { diagnostic } else { diagnostic.help(format!("{general}; {reasons}")) }
+    }
+}
+
+/// Whether a literal without a unit multiplies something.
+fn has_bare_factor(formula: &Formula) -> bool {
+    let is_bare = |formula: &Formula| matches!(formula.kind, FormulaKind::Number(_, None));
+    match &formula.kind {
+        FormulaKind::Product(factors) => factors
+            .iter()
+            .any(|factor| (!factor.divides && is_bare(&factor.formula)) || has_bare_factor(&factor.formula)),
+        _ => false,
     }
 }
 

@@ -5,6 +5,9 @@ use crate::spec::{JointKind, JointSpec, PlacementKind};
 
 /// Checks one joint.
 pub(super) fn check(joint: &JointSpec, diags: &mut Diagnostics) {
+    if joint.is_bare {
+        check_place_of_coordinate(joint, diags);
+    }
     check_placement(joint, diags);
     check_axes(joint, diags);
     check_limits(joint, diags);
@@ -22,6 +25,20 @@ fn placement(joint: &JointSpec) -> Option<(&'static str, &Place)> {
         PlacementKind::Screw { .. } => ("screw", joint.kind.axes() == 1),
     };
     fits.then_some((key, &placement.place))
+}
+
+/// A coordinate is nowhere.
+fn check_place_of_coordinate(joint: &JointSpec, diags: &mut Diagnostics) {
+    let JointSpec { name, keys, .. } = joint;
+    let placement = keys.placement.as_ref().map(|placement| ("dh", &placement.place));
+    let given = keys.given().filter(|(key, _)| matches!(*key, "at" | "rpy")).chain(placement);
+    for (key, place) in given {
+        let message = format!("`{name}` is a coordinate without a body, and has a place by `{key}`");
+        let unfit = Diagnostic::new(Code::KeyNotOfKind, place, message);
+        diags.push(unfit.help(
+            "leave the key out, or write a joint and a body: `#[joint(name: revolute(z), world -> body, …)]`",
+        ));
+    }
 }
 
 fn check_placement(joint: &JointSpec, diags: &mut Diagnostics) {
@@ -66,6 +83,7 @@ fn check_axes(joint: &JointSpec, diags: &mut Diagnostics) {
             let unneeded = Diagnostic::new(Code::AxisUnneeded, &axis.place, message);
             diags.push(unneeded.help(format!("leave the axis out: write `{}`", kind.name())));
         }
+        (Some(_), Some(_)) if joint.is_bare => {}
         (Some(axis), Some((key, _))) => {
             let message = format!("the axis of `{name}` is given twice: by `{key}` as well");
             diags.error(Code::AxisUnneeded, &axis.place, message);

@@ -3,6 +3,7 @@
 mod build;
 mod composition;
 mod dimensions;
+mod energies;
 mod fields;
 mod joints;
 mod lines;
@@ -12,12 +13,14 @@ mod physics;
 mod placement;
 mod quantities;
 mod shapes;
+mod terms;
 mod topology;
 mod tree;
 mod unit_text;
 mod values;
 
 pub use build::build;
+pub use energies::{Term, Terms};
 pub use lines::OUTPUTS;
 pub use tree::{Drive, Frame, Link, Motion, Passive, Tree};
 

@@ -177,9 +177,10 @@ pub(super) fn check_links(
         return;
     }
     let loads = loads(tree);
+    let in_terms: Vec<usize> = tree.coupled_by_terms().into_iter().flat_map(|(a, b)| [a, b]).collect();
     for (joint, coordinate) in spec.joints.iter().zip(&topology.coordinate) {
         if let Some(Coordinate { v, .. }) = coordinate {
-            check_moved(joint, *v, &loads, tree, diags);
+            check_moved(joint, *v, (&loads, &in_terms), tree, diags);
         }
     }
     let all_allowed = allows(spec.options.allow.as_deref());
@@ -276,11 +277,21 @@ fn effect(link: &Link<Expr>, beyond: Load) -> Effect {
     }
 }
 
-/// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are. `v` is its first speed.
-fn check_moved(joint: &JointSpec, v: usize, loads: &[Load], tree: &Tree<Expr>, diags: &mut Diagnostics) {
+/// A joint that moves nothing makes the mass matrix singular, whatever the coordinates are. `v` is its first speed; of
+/// some speeds there are kinetic terms.
+fn check_moved(
+    joint: &JointSpec,
+    v: usize,
+    (loads, in_terms): (&[Load], &[usize]),
+    tree: &Tree<Expr>,
+    diags: &mut Diagnostics,
+) {
     let (name, child) = (&joint.name, &joint.child);
     // Followers move with it; the links that share a coordinate move something if one of them does.
     let effect_of = |speed: usize| {
+        if in_terms.contains(&speed) {
+            return Some(Effect::Inertia);
+        }
         let driven = tree.links.iter().zip(loads).filter(|(link, _)| link.drive.v == speed);
         driven.map(|(link, beyond)| effect(link, *beyond)).max()
     };
@@ -288,9 +299,15 @@ fn check_moved(joint: &JointSpec, v: usize, loads: &[Load], tree: &Tree<Expr>, d
     let place = &name.place;
     match least {
         Some(Effect::NoMass) => {
-            let message =
-                format!("the joint `{name}` moves no mass: neither `{child}` nor what it carries has any");
-            diags.error(Code::MovesNoMass, place, message);
+            let wrong = |message| Diagnostic::new(Code::MovesNoMass, place, message);
+            diags.push(match joint.is_bare {
+                true => wrong(format!("no kinetic term has the speed of `{name}`")).help(format!(
+                    "give the coordinate its inertia: `#[kinetic(m / 2 * dot({name})^2)]`, or an `armature`"
+                )),
+                false => wrong(format!(
+                    "the joint `{name}` moves no mass: neither `{child}` nor what it carries has any"
+                )),
+            });
         }
         Some(Effect::NoInertia) => {
             let is_round = matches!(joint.kind, JointKind::Ball | JointKind::Free);

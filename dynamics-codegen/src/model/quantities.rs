@@ -3,7 +3,7 @@
 use crate::diagnostics::Code;
 use crate::spec::{
     AxisKind, BodySpec, Formula, InertiaKind, JointKeys, JointKind, JointSpec, PlacementKind, RobotSpec,
-    Shape, leaders,
+    Shape, TermKind, TermSpec, leaders,
 };
 
 /// What a place needs.
@@ -35,6 +35,8 @@ pub(super) enum Quantity {
     TurningStiffness,
     /// A force for each metre.
     SlidingStiffness,
+    Energy,
+    Power,
 }
 
 impl Quantity {
@@ -55,6 +57,8 @@ impl Quantity {
             Self::TurningDamping => [1, 2, -1],
             Self::SlidingDamping => [1, 0, -1],
             Self::SlidingStiffness => [1, 0, -2],
+            Self::Energy => [1, 2, -2],
+            Self::Power => [1, 2, -3],
         }
     }
 
@@ -77,6 +81,8 @@ impl Quantity {
             Self::SlidingDamping => "N·s/m",
             Self::TurningStiffness => "N·m/rad",
             Self::SlidingStiffness => "N/m",
+            Self::Energy => "J",
+            Self::Power => "W",
         }
     }
 }
@@ -95,6 +101,11 @@ pub(super) struct Slot<'s> {
 }
 
 impl Slot<'_> {
+    /// Whether coordinates and speeds may stand in it.
+    pub(super) fn is_term(&self) -> bool {
+        matches!(self.quantity, Quantity::Energy | Quantity::Power)
+    }
+
     /// As in "`mass` of `arm`".
     pub(super) fn name(&self) -> String {
         match self.owner {
@@ -150,7 +161,7 @@ impl Along {
     }
 }
 
-/// All formulas of a specification, in the order of its lines, options first.
+/// All formulas of a specification, in the order of its lines, options first and terms last.
 pub(super) fn slots(spec: &RobotSpec) -> Vec<Slot<'_>> {
     let mut table = Table { slots: vec![], owner: "" };
     let leaders = leaders(&spec.joints).into_iter().map(|leader| leader.map(|leader| &spec.joints[leader]));
@@ -165,9 +176,15 @@ pub(super) fn slots(spec: &RobotSpec) -> Vec<Slot<'_>> {
         match if joint_first { (joints.next(), None) } else { (None, bodies.next()) } {
             (Some((joint, leader)), _) => table.joint(joint, leader),
             (_, Some(body)) => table.body(body),
-            _ => return table.slots,
+            _ => break,
         }
     }
+    table.owner = "";
+    for TermSpec { kind, formula, .. } in &spec.terms {
+        let quantity = if *kind == TermKind::Dissipation { Quantity::Power } else { Quantity::Energy };
+        table.add(kind.name(), quantity, formula);
+    }
+    table.slots
 }
 
 struct Table<'s> {

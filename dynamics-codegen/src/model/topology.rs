@@ -161,7 +161,7 @@ fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
     let mut bodies: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).collect();
     distinct_names("body", bodies.iter().map(|(_, name)| *name), diags);
     let described: FxHashMap<_, _> = bodies.iter().map(|(_, name)| (name.text.as_str(), ())).collect();
-    let frames = spec.joints.iter().map(|joint| (joint.line, &joint.child));
+    let frames = spec.joints.iter().filter(|joint| !joint.is_bare).map(|joint| (joint.line, &joint.child));
     let frames = frames.filter(|(_, name)| name.text != WORLD && !described.contains_key(&*name.text));
     bodies.extend(frames);
     bodies.sort_by_key(|(line, _)| *line);
@@ -217,7 +217,7 @@ fn check_bodies(spec: &RobotSpec, carriers: &FxHashMap<&str, usize>, diags: &mut
             );
         }
     }
-    for joint in moving(spec) {
+    for joint in moving(spec).filter(|joint| !joint.is_bare) {
         let child = &joint.child;
         if child.text != WORLD && !described.contains_key(&*child.text) {
             let message = format!("the joint `{}` moves `{child}`, which no `#[body]` describes", joint.name);

@@ -1,5 +1,6 @@
 //! The kinematic tree in numbers or expressions: moving links, frames, gravity.
 
+use super::Terms;
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Scalar, Vector3};
 use crate::symbolic::Real;
 
@@ -139,6 +140,8 @@ pub struct Tree<S> {
     pub frames: Vec<Frame<S>>,
     /// The acceleration of free fall in world axes, m/s².
     pub gravity: Vector3<S>,
+    /// What is added to the energies.
+    pub terms: Terms<S>,
 }
 
 impl<S> Tree<S> {
@@ -243,7 +246,8 @@ impl<S: Scalar> Tree<S> {
                     pose: frame.pose.map(&mut f),
                 })
                 .collect(),
-            gravity: self.gravity.map(f),
+            gravity: self.gravity.map(&mut f),
+            terms: self.terms.map(&mut f),
         }
     }
 }

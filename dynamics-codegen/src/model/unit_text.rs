@@ -49,6 +49,7 @@ fn has_angle(formula: &Formula) -> bool {
         FormulaKind::Negative(inner) => has_angle(inner),
         FormulaKind::Sum(terms) => terms.iter().any(|term| has_angle(&term.formula)),
         FormulaKind::Product(factors) => factors.iter().any(|factor| has_angle(&factor.formula)),
-        FormulaKind::Name(_) | FormulaKind::Call(..) => false,
+        FormulaKind::Power(base, _) => has_angle(base),
+        FormulaKind::Name(_) | FormulaKind::Call(..) | FormulaKind::Moving(_) => false,
     }
 }

@@ -5,7 +5,9 @@ use rustc_hash::FxHashMap;
 use super::quantities::Slot;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::spatial::Vector3;
-use crate::spec::{Factor, Field, Formula, FormulaKind, Function, Name, RobotSpec, Unit};
+use crate::spec::{
+    Factor, Field, Formula, FormulaKind, Function, JointKind, JointSpec, Moving, Name, RobotSpec, Unit,
+};
 use crate::symbolic::{Expr, Graph, Number, SymbolId};
 
 /// A value, or the first mistake in it.
@@ -18,6 +20,9 @@ pub(super) struct Values<'s, 'g> {
     by_name: FxHashMap<&'s str, usize>,
     /// The inputs, of the fields that are used.
     symbols: Vec<Option<Expr<'g>>>,
+    joints: &'s [JointSpec],
+    /// For look-up only.
+    joint_by_name: FxHashMap<&'s str, usize>,
 }
 
 impl<'s, 'g> Values<'s, 'g> {
@@ -37,6 +42,8 @@ impl<'s, 'g> Values<'s, 'g> {
                 Some(&field) if slot.constant.is_none() => used[field] = true,
                 Some(_) => diags.push(field_where_number_is_needed(slot, name)),
                 None if is_pi(name) => {}
+                // Whether it is a coordinate is for those to judge who know what moves.
+                None if slot.is_term() => {}
                 None => diags.push(unknown_field(fields, name)),
             });
         }
@@ -47,7 +54,38 @@ impl<'s, 'g> Values<'s, 'g> {
                 graph.symbol(SymbolId(count - 1))
             })
         });
-        Self { fields, symbols: symbols.collect(), by_name }
+        let joint_by_name = spec.joints.iter().enumerate().map(|(k, joint)| (&*joint.name.text, k)).collect();
+        Self { fields, symbols: symbols.collect(), by_name, joints: &spec.joints, joint_by_name }
+    }
+
+    /// The joint of a name that is no field.
+    pub(super) fn joint(&self, name: &Name) -> Option<usize> {
+        match self.field(name) {
+            None => self.joint_by_name.get(&*name.text).copied(),
+            Some(_) => None,
+        }
+    }
+
+    /// The exponents of kg, m and s in a joint's one coordinate.
+    pub(super) fn unit_of_coordinate(&self, name: &Name) -> Option<[i8; 3]> {
+        let joint = &self.joints[self.joint(name)?];
+        (joint.kind.speeds() == 1).then(|| match joint.kind {
+            JointKind::Prismatic => [0, 1, 0],
+            _ => [0; 3],
+        })
+    }
+
+    /// The same in a coordinate or a speed of a joint that has several.
+    pub(super) fn unit_of_part(&self, joint: &Name, part: &Name) -> Option<[i8; 3]> {
+        let kind = self.joints[*self.joint_by_name.get(&*joint.text)?].kind;
+        let at = |parts: &[&str]| parts.iter().position(|known| part.text == *known);
+        let (index, seconds) = match (at(kind.coordinate_parts()), at(kind.speed_parts())) {
+            // The position of a free joint comes first, as its linear speeds do.
+            (Some(index), _) => (index, 0),
+            (None, Some(index)) => (index, -1),
+            (None, None) => return None,
+        };
+        Some(if *kind.turns().get(index)? { [0, 0, seconds] } else { [0, 1, seconds] })
     }
 
     /// The fields that are used, in order of declaration, as their positions among all fields.
@@ -81,6 +119,8 @@ impl<'s, 'g> Values<'s, 'g> {
             }
             FormulaKind::Product(factors) => self.product(factors)?,
             FormulaKind::Call(function, argument) => self.call(*function, argument)?,
+            FormulaKind::Power(base, exponent) => self.power(base, *exponent)?,
+            FormulaKind::Moving(_) => return Err(moves(formula)),
         };
         match value.as_number() {
             Some(number) if !number.is_finite() || !number.to_f64().is_finite() => Err(out_of_range(formula)),
@@ -102,14 +142,21 @@ impl<'s, 'g> Values<'s, 'g> {
             let value = self.scalar(formula)?;
             product = match divides {
                 false => product * value,
-                true if value.is_zero() || self.cancels(formula) => {
-                    let message = format!("the divisor `{}` is zero", formula.short_text());
-                    return Err(Diagnostic::new(Code::DivisionByZero, &formula.place, message));
-                }
+                true if value.is_zero() || self.cancels(formula) => return Err(divisor_is_zero(formula)),
                 true => product.checked_div(value).ok_or_else(|| out_of_range(formula))?,
             };
         }
         Ok(product)
+    }
+
+    fn power(&self, base: &Formula, exponent: i32) -> Result<Expr<'g>> {
+        let value = self.scalar(base)?;
+        let power = (0..exponent.unsigned_abs()).fold(Expr::ONE, |power, _| power * value);
+        match exponent < 0 {
+            true if value.is_zero() || self.cancels(base) => Err(divisor_is_zero(base)),
+            true => Expr::ONE.checked_div(power).ok_or_else(|| out_of_range(base)),
+            false => Ok(power),
+        }
     }
 
     /// Whether the terms of a formula cancel whatever the fields are, as in `(a + b) - a - b`.
@@ -156,6 +203,12 @@ impl<'s, 'g> Values<'s, 'g> {
                     Function::Sqrt => (value.sqrt(), size.sqrt()),
                 }
             }
+            FormulaKind::Power(base, exponent) => {
+                let (value, size) = self.trial(base, step);
+                let size = if *exponent < 0 { value.abs() } else { size };
+                (value.powi(*exponent), size.powi(*exponent))
+            }
+            FormulaKind::Moving(_) => (f64::NAN, f64::NAN),
         }
     }
 
@@ -199,7 +252,11 @@ pub(super) fn for_each_name(formula: &Formula, visit: &mut impl FnMut(&Name)) {
     match &formula.kind {
         FormulaKind::Number(..) => {}
         FormulaKind::Name(name) => visit(name),
-        FormulaKind::Negative(inner) | FormulaKind::Call(_, inner) => for_each_name(inner, visit),
+        FormulaKind::Negative(inner)
+        | FormulaKind::Call(_, inner)
+        | FormulaKind::Power(inner, _)
+        | FormulaKind::Moving(Moving::Rate(inner)) => for_each_name(inner, visit),
+        FormulaKind::Moving(_) => {}
         FormulaKind::Sum(terms) => terms.iter().for_each(|term| for_each_name(&term.formula, visit)),
         FormulaKind::Product(factors) => {
             factors.iter().for_each(|factor| for_each_name(&factor.formula, visit))
@@ -217,6 +274,16 @@ fn in_si(value: Number, unit: Option<Unit>) -> Number {
     let (num, den, pi) = unit.scale;
     let scale = Number::ratio(num, den);
     value * if pi { scale * Number::PI } else { scale }
+}
+
+fn divisor_is_zero(formula: &Formula) -> Diagnostic {
+    let message = format!("the divisor `{}` is zero", formula.short_text());
+    Diagnostic::new(Code::DivisionByZero, &formula.place, message)
+}
+
+fn moves(formula: &Formula) -> Diagnostic {
+    let message = format!("`{}` moves, and a value is needed", formula.short_text());
+    Diagnostic::new(Code::ConstantNeeded, &formula.place, message)
 }
 
 fn out_of_range(formula: &Formula) -> Diagnostic {

@@ -16,7 +16,7 @@ mod verify;
 
 pub use compile::{Compiled, CompiledMethod, Sizes, compile, entries};
 pub use hoist::Companion;
-pub use plan::{Plan, RunTime, methods};
+pub use plan::{Plan, RunTime, methods, without_terms};
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
 pub use schedule::schedule;
 pub use share::share;

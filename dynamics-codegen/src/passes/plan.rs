@@ -80,20 +80,24 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
+    /// Whether the mass matrix is more than the tree's, so that it must be factored.
+    must_factor: bool,
 }
 
 impl Plans {
     pub(super) fn of(model: &Model<'_>, run_time: RunTime) -> Self {
         let links = &model.tree.links;
         let columns = columns(links.iter().map(|link| (link.parent, link.motion, link.drive)));
-        let parents = elimination_parents(&columns, model.tree.dof());
+        let parents = elimination_parents(&columns, model.tree.dof(), &model.tree.coupled_by_terms());
         let ancestors: Vec<Vec<usize>> =
             parents.iter().map(|&parent| std::iter::successors(parent, |&k| parents[k]).collect()).collect();
         let depth = |link: usize| std::iter::successors(Some(link), |&k| links[k].parent).count();
         let below = |link: Option<usize>| link.map_or(0, depth);
         let frame_joints = model.tree.frames.iter().map(|frame| below(frame.link)).sum();
-        let suits_lanes = run_time == RunTime::Core && suits_lanes(links);
-        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes }
+        let is_plain = model.tree.terms.is_empty();
+        let suits_lanes = run_time == RunTime::Core && is_plain && suits_lanes(links);
+        let must_factor = !model.tree.terms.kinetic.is_empty();
+        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes, must_factor }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
@@ -155,6 +159,10 @@ impl Plans {
             Method::Regressor | Method::BaseRegressor => 50 * pairs,
             Method::BiasForces | Method::InverseDynamics => 40 * n,
             Method::KineticEnergy | Method::Lagrangian => 20 * n,
+            Method::ForwardDynamics if self.must_factor => {
+                80 * n
+                    + self.ancestors.iter().map(|ancestors| ancestors.len() * ancestors.len()).sum::<usize>()
+            }
             Method::ForwardDynamics => 80 * n,
             // By loops: the two methods it calls have their own forms.
             Method::ForwardDynamicsDerivatives
@@ -220,7 +228,8 @@ fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
     links.iter().enumerate().all(is_own) && (0..links.len()).all(follows)
 }
 
-/// The methods to compile: those named and what they call, or all that the robot has.
+/// The methods to compile: those named and what they call, or all that the robot has. Where all inertia is in terms of
+/// the kinetic energy, there is no centre of mass.
 pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
     let plans = Plans::of(model, run_time);
     let of_frames = (0..model.tree.frames.len()).flat_map(Method::of_frame);
@@ -247,8 +256,21 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) ->
         matches!(method.trait_(), Trait::Regressor | Trait::BaseRegressor)
             && plans.form(Method::Regressor) == Form::Table
     };
+    let has_mass = model.tree.links.iter().any(|link| !link.inertia.mass.is_zero());
+    let is_nowhere = |method: Method| method.trait_() == Trait::CentroidalDynamics && !has_mass;
     let all = Method::OF_ROBOT.into_iter().chain(of_frames);
-    all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method)).collect()
+    let all = all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method));
+    all.filter(|&method| !is_nowhere(method)).collect()
+}
+
+/// The methods among these that terms have a part in and that are recursions over a table of links, which has none.
+pub fn without_terms(methods: &[Method], model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
+    if model.tree.terms.is_empty() {
+        return vec![];
+    }
+    let plans = Plans::of(model, run_time);
+    let of_forces = methods.iter().copied().filter(|method| method.trait_().is_of_forces());
+    of_forces.filter(|method| plans.form(*method) == Form::Table).collect()
 }
 
 /// Whether the robot has more to say than the trait's default does.
@@ -256,7 +278,8 @@ fn has_of_itself(method: Method, model: &Model<'_>) -> bool {
     let any = |acts: fn(&Passive<Expr<'_>>) -> bool| model.tree.links.iter().any(|link| acts(&link.passive));
     match method {
         Method::PassiveForces => {
-            any(|p| !(p.damping.is_zero() && p.friction.is_zero() && p.stiffness.is_zero()))
+            !model.tree.terms.dissipation.is_empty()
+                || any(|p| !(p.damping.is_zero() && p.friction.is_zero() && p.stiffness.is_zero()))
         }
         Method::ElasticEnergy => any(|p| !p.stiffness.is_zero()),
         _ => true,

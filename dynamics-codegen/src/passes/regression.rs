@@ -15,7 +15,8 @@ pub(super) fn parameters(model: &Model<'_>, tree: &Tree<f64>) -> Vec<f64> {
         let spring = (!symbolic.passive.stiffness.is_zero()).then_some(stiffness);
         [armature, damping, friction].into_iter().chain(spring)
     });
-    of_bodies.chain(of_joints).collect()
+    // Terms of the energies are there once.
+    of_bodies.chain(of_joints).chain(tree.terms.all().map(|_| 1.0)).collect()
 }
 
 /// How far a regressor misses the forces of a robot of the same geometry with other parameters, none of them zero.

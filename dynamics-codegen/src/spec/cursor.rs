@@ -80,6 +80,11 @@ impl Cursor {
         if let Some(ident) = self.ident() {
             return Some(Name::new(&ident));
         }
+        self.quoted_name()
+    }
+
+    /// A name in quotes.
+    pub(super) fn quoted_name(&mut self) -> Option<Name> {
         let TokenTree::Literal(literal) = self.tokens.peek()? else { return None };
         let text = syn::parse_str::<syn::LitStr>(&literal.to_string()).ok()?.value();
         let place = literal.span().into();

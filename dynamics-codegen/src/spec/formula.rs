@@ -1,8 +1,11 @@
-//! Arithmetic as written: numbers with units, fields, sums, products and functions.
+//! Arithmetic as written: numbers with units, fields, sums, products, powers and functions.
+//!
+//! A term of the energies may have what moves as well: coordinates, speeds, and where bodies are.
 
 use proc_macro2::{Delimiter, Literal, Span, TokenStream};
 
 use super::cursor::{Cursor, Result};
+use super::moving::{self, Moving};
 use super::{Name, Unit};
 use crate::diagnostics::{Code, Diagnostic, Place};
 use crate::symbolic::Number;
@@ -16,12 +19,13 @@ pub struct Formula {
     pub place: Place,
 }
 
-/// The forms of a [`Formula`]. Sums and products are flat: only parentheses and functions nest, at most 32 deep.
+/// The forms of a [`Formula`]. Sums and products are flat: only parentheses and functions nest, at most 32 deep, and
+/// powers have no powers.
 #[derive(Clone, Debug)]
 pub enum FormulaKind {
     /// A literal with its unit, as in `90deg`. The value is in the unit.
     Number(Number, Option<Unit>),
-    /// A field, or `pi`.
+    /// A field, or `pi`; in a term also a joint's one coordinate.
     Name(Name),
     /// `-x`
     Negative(Box<Formula>),
@@ -31,7 +35,23 @@ pub enum FormulaKind {
     Product(Vec<Factor>),
     /// `sin(x)` and the like.
     Call(Function, Box<Formula>),
+    /// `x^n`
+    Power(Box<Formula>, i32),
+    /// What only terms have.
+    Moving(Moving),
 }
+
+/// Which words a formula may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Words {
+    /// Those of a value: numbers and fields.
+    OfValues,
+    /// Those of a term: what moves as well.
+    OfTerms,
+}
+
+/// The largest exponent, and the smallest is its negative.
+const LARGEST_EXPONENT: i32 = 16;
 
 /// A term of a sum.
 #[derive(Clone, Debug)]
@@ -73,19 +93,24 @@ impl Formula {
     }
 
     /// Reads all of the cursor.
-    pub(super) fn parse(mut input: Cursor) -> Result<Self> {
-        let formula = Self::sum(&mut input)?;
+    pub(super) fn parse(input: Cursor) -> Result<Self> {
+        Self::parse_in(input, Words::OfValues)
+    }
+
+    /// Reads all of the cursor, in these words.
+    pub(super) fn parse_in(mut input: Cursor, words: Words) -> Result<Self> {
+        let formula = Self::sum(&mut input, words)?;
         input.finish("the expression")?;
         Ok(formula)
     }
 
     /// Reads a sum, and stops at what cannot go on with it.
-    pub(super) fn sum(input: &mut Cursor) -> Result<Self> {
-        let first = Self::product(input)?;
+    fn sum(input: &mut Cursor, words: Words) -> Result<Self> {
+        let first = Self::product(input, words)?;
         let mut terms = vec![Term { negative: false, formula: first }];
         while let Some(sign @ ('+' | '-')) = input.peek_punct() {
             input.next();
-            terms.push(Term { negative: sign == '-', formula: Self::product(input)? });
+            terms.push(Term { negative: sign == '-', formula: Self::product(input, words)? });
         }
         let place = spanning(terms.iter().map(|term| &term.formula));
         Ok(match (terms.pop(), terms.is_empty(), place) {
@@ -97,12 +122,12 @@ impl Formula {
         })
     }
 
-    fn product(input: &mut Cursor) -> Result<Self> {
-        let first = Self::signed(input)?;
+    fn product(input: &mut Cursor, words: Words) -> Result<Self> {
+        let first = Self::signed(input, words)?;
         let mut factors = vec![Factor { divides: false, formula: first }];
         while let Some(sign @ ('*' | '/')) = input.peek_punct() {
             input.next();
-            factors.push(Factor { divides: sign == '/', formula: Self::signed(input)? });
+            factors.push(Factor { divides: sign == '/', formula: Self::signed(input, words)? });
         }
         let place = spanning(factors.iter().map(|factor| &factor.formula));
         Ok(match (factors.pop(), factors.is_empty(), place) {
@@ -114,12 +139,12 @@ impl Formula {
         })
     }
 
-    fn signed(input: &mut Cursor) -> Result<Self> {
+    fn signed(input: &mut Cursor, words: Words) -> Result<Self> {
         let (start, mut negative) = (input.here(), false);
         while input.punct('-') {
             negative = !negative;
         }
-        let inner = Self::atom(input)?;
+        let inner = Self::power(input, words)?;
         if !negative {
             return Ok(inner);
         }
@@ -127,27 +152,57 @@ impl Formula {
         Ok(Self { kind: FormulaKind::Negative(Box::new(inner)), place })
     }
 
-    fn atom(input: &mut Cursor) -> Result<Self> {
+    /// `x` or `x^n`: of `-x^2` the square is negative.
+    fn power(input: &mut Cursor, words: Words) -> Result<Self> {
+        let base = Self::atom(input, words)?;
+        if !input.punct('^') {
+            return Ok(base);
+        }
+        let (exponent, end) = exponent(input)?;
+        if input.peek_punct() == Some('^') {
+            return Err(input.expected("one exponent"));
+        }
+        let place = base.place.to(&end);
+        Ok(Self { kind: FormulaKind::Power(Box::new(base), exponent), place })
+    }
+
+    fn atom(input: &mut Cursor, words: Words) -> Result<Self> {
         let place = input.here();
+        if words == Words::OfTerms
+            && let Some(name) = input.quoted_name()
+        {
+            return moving::named(name, input);
+        }
         if let Some(literal) = input.literal() {
             return number(&literal, place);
         }
         for delimiter in [Delimiter::Parenthesis, Delimiter::None] {
             if let Some((inner, place)) = input.group(delimiter)? {
-                let inner = Self::parse(inner)?;
+                let inner = Self::parse_in(inner, words)?;
                 return Ok(Self { place, ..inner });
             }
         }
         let Some(ident) = input.ident() else {
-            return Err(input.expected("a number or the name of a field"));
+            return Err(input.expected(match words {
+                Words::OfValues => "a number or the name of a field",
+                Words::OfTerms => "a number or the name of a field or a joint",
+            }));
         };
         let name = Name::new(&ident);
         match input.group(Delimiter::Parenthesis)? {
+            None if words == Words::OfTerms => moving::named(name, input),
             None => Ok(Self { place: name.place.clone(), kind: FormulaKind::Name(name) }),
             Some((argument, end)) => {
-                let function = Function::named(&name)?;
-                let argument = Box::new(Self::parse(argument)?);
-                Ok(Self { kind: FormulaKind::Call(function, argument), place: place.to(&end) })
+                let place = name.place.to(&end);
+                if words == Words::OfTerms && moving::is_known(&name) {
+                    return Ok(Self {
+                        kind: FormulaKind::Moving(Moving::parse(&name, argument, &end)?),
+                        place,
+                    });
+                }
+                let function = Function::named(&name, words)?;
+                let argument = Box::new(Self::parse_in(argument, words)?);
+                Ok(Self { kind: FormulaKind::Call(function, argument), place })
             }
         }
     }
@@ -174,14 +229,42 @@ fn spanning<'a>(mut parts: impl Iterator<Item = &'a Formula>) -> Place {
 impl Function {
     const ALL: [(&'static str, Self); 3] = [("sin", Self::Sin), ("cos", Self::Cos), ("sqrt", Self::Sqrt)];
 
-    fn named(name: &Name) -> Result<Self> {
+    fn named(name: &Name, words: Words) -> Result<Self> {
         let found = Self::ALL.iter().find(|(known, _)| *known == name.text);
         found.map(|(_, function)| *function).ok_or_else(|| {
             let message = format!("there is no function `{name}`");
+            let unknown = Diagnostic::new(Code::FunctionUnknown, &name.place, message);
             let known = Self::ALL.iter().map(|(known, _)| *known);
-            Diagnostic::new(Code::FunctionUnknown, &name.place, message).suggest(&name.text, known)
+            match words {
+                Words::OfValues => unknown.suggest(&name.text, known),
+                Words::OfTerms => {
+                    let all: Vec<_> = known.chain(moving::FUNCTIONS.iter().copied()).collect();
+                    unknown.help(format!("use one of {}", all.join(", "))).suggest(&name.text, all)
+                }
+            }
         })
     }
+}
+
+/// A whole number, with its sign.
+fn exponent(input: &mut Cursor) -> Result<(i32, Place)> {
+    let start = input.here();
+    let negative = input.punct('-');
+    let place = start.to(&input.here());
+    let wrong = |found: &str| {
+        let (sign, found) = (if negative { "-" } else { "" }, shortened(found));
+        let message =
+            format!("the exponent `{sign}{found}` is no whole number of at most {LARGEST_EXPONENT}");
+        Diagnostic::new(Code::ExponentInvalid, &place, message)
+    };
+    let Some(literal) = input.literal() else {
+        let found = input.next().map(|token| token.to_string()).unwrap_or_default();
+        return Err(wrong(&found));
+    };
+    let text = literal.to_string();
+    let value = text.parse::<i32>().ok().filter(|value| *value <= LARGEST_EXPONENT);
+    let value = value.ok_or_else(|| wrong(&text))?;
+    Ok((if negative { -value } else { value }, place))
 }
 
 /// Reads a literal as `digits[unit]`.

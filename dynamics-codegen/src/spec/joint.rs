@@ -25,6 +25,8 @@ pub struct JointSpec {
     pub parent: Name,
     /// The body it carries.
     pub child: Name,
+    /// Whether it is a mere coordinate, of which no body says where it is.
+    pub is_bare: bool,
     /// All else.
     pub keys: Box<JointKeys>,
     /// The position of the line among all joints and bodies.
@@ -112,6 +114,62 @@ impl JointSpec {
     }
 }
 
+impl JointSpec {
+    /// Reads `name: angle, key = value, …` or `name: length, …`: a coordinate without a body.
+    pub(super) fn coordinate(
+        input: Cursor,
+        place: Place,
+        line: usize,
+        diags: &mut Diagnostics,
+    ) -> Option<Self> {
+        let mut items = input.items().into_iter();
+        let missing = || Diagnostic::new(Code::Syntax, &place, "the coordinate has no `name: angle`");
+        let head = items.next().ok_or_else(missing).and_then(|mut item| {
+            let Some(name) = item.name() else { return Err(item.expected("the coordinate's name")) };
+            if !item.punct(':') {
+                return Err(item.expected("`:` after the coordinate's name"));
+            }
+            const KIND: &str = "`angle` or `length`";
+            let Some(kind) = item.ident() else { return Err(item.expected(KIND)) };
+            let kind_name = Name::new(&kind);
+            let kind = match kind_name.text.as_str() {
+                "angle" => JointKind::Revolute,
+                "length" => JointKind::Prismatic,
+                _ => {
+                    let message = format!("expected {KIND}, found `{kind_name}`");
+                    return Err(Diagnostic::new(Code::Syntax, &kind_name.place, message));
+                }
+            };
+            item.finish("the coordinate's kind")?;
+            Ok((name, kind, kind_name.place))
+        });
+        let form = |mistake: Diagnostic| match mistake.code {
+            Code::Syntax => mistake.help("write `#[coordinate(theta: angle)]` or `#[coordinate(r: length)]`"),
+            _ => mistake,
+        };
+        let head = diags.keep(head.map_err(form));
+        let keys = Box::new(JointKeys::parse(items, diags));
+        let (name, kind, kind_place) = head?;
+        Some(Self {
+            kind,
+            axes: vec![Axis {
+                kind: AxisKind::Named { index: 2, negative: false },
+                place: kind_place.clone(),
+            }],
+            kind_place,
+            pitch: None,
+            parent: Name { text: "world".to_owned(), place: place.clone() },
+            // No body can be called so.
+            child: Name { text: format!("\0{name}"), place: name.place.clone() },
+            name,
+            is_bare: true,
+            keys,
+            line,
+            place,
+        })
+    }
+}
+
 impl JointLine {
     /// Reads the contents of the attribute. Keys that fail are reported and left out.
     pub(super) fn parse(input: Cursor, place: Place, line: usize, diags: &mut Diagnostics) -> Option<Self> {
@@ -148,6 +206,7 @@ impl JointLine {
             pitch,
             parent,
             child,
+            is_bare: false,
             keys,
             line,
             place,

@@ -9,8 +9,10 @@ mod joint;
 mod keys;
 mod kind;
 mod mimic;
+mod moving;
 mod options;
 mod parts;
+mod term;
 mod text;
 mod unit;
 pub mod urdf;
@@ -23,7 +25,9 @@ pub use joint::{Axis, AxisKind, JointAmendment, JointSpec, Placement, PlacementK
 pub use keys::{JointKeys, Switch, default_friction_speed};
 pub use kind::JointKind;
 pub use mimic::{leaders, welded};
+pub use moving::Moving;
 pub use options::{BaseSpec, Options};
+pub use term::{TermKind, TermSpec};
 pub use text::plain;
 pub use unit::Unit;
 
@@ -89,6 +93,8 @@ pub struct RobotSpec {
     pub amendments: Vec<JointAmendment>,
     /// `#[body(…)]`, in order.
     pub bodies: Vec<BodySpec>,
+    /// `#[potential(…)]`, `#[dissipation(…)]` and `#[kinetic(…)]`, in order.
+    pub terms: Vec<TermSpec>,
 }
 
 impl RobotSpec {
@@ -109,6 +115,7 @@ pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
         joints: vec![],
         amendments: vec![],
         bodies: vec![],
+        terms: vec![],
     };
     for (line, attribute) in input.attrs.iter().enumerate() {
         spec.read(attribute, line, diags);
@@ -116,7 +123,7 @@ pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
     spec
 }
 
-const HELPERS: [&str; 3] = ["dynamics", "joint", "body"];
+const HELPERS: [&str; 7] = ["dynamics", "joint", "body", "coordinate", "potential", "dissipation", "kinetic"];
 
 /// Which helper attribute of the derive it is.
 fn helper(attribute: &syn::Attribute) -> Option<&'static str> {
@@ -140,6 +147,12 @@ impl RobotSpec {
                 None => {}
             },
             "body" => self.bodies.extend(BodySpec::parse(list.tokens.clone(), input, place, line, diags)),
+            "coordinate" => self.joints.extend(JointSpec::coordinate(input, place, line, diags)),
+            "potential" | "dissipation" | "kinetic" => {
+                let kind = TermKind::named(helper);
+                let term = kind.map(|kind| TermSpec::parse(kind, input, place));
+                self.terms.extend(term.and_then(|term| diags.keep(term)));
+            }
             _ => self.options.read(input, diags),
         }
     }

@@ -2,7 +2,7 @@
 
 use std::fmt::{self, Write};
 
-use super::{Formula, FormulaKind, Function};
+use super::{Formula, FormulaKind, Function, Moving};
 use crate::symbolic::Number;
 
 impl fmt::Display for Formula {
@@ -32,11 +32,16 @@ impl fmt::Display for Formula {
                         (_, false) => f.write_str(" * ")?,
                         (_, true) => f.write_str(" / ")?,
                     }
-                    write!(f, "{}", Operand(&factor.formula))?;
+                    match factor.formula.kind {
+                        FormulaKind::Product(_) if factor.divides => write!(f, "({})", factor.formula)?,
+                        _ => write!(f, "{}", Operand(&factor.formula))?,
+                    }
                 }
                 Ok(())
             }
             FormulaKind::Call(function, argument) => write!(f, "{}({argument})", function.name()),
+            FormulaKind::Power(base, exponent) => write!(f, "{}^{exponent}", Base(base)),
+            FormulaKind::Moving(moving) => write!(f, "{moving}"),
         }
     }
 }
@@ -55,6 +60,32 @@ impl fmt::Display for Operand<'_> {
         match self.0.kind {
             FormulaKind::Sum(_) => write!(f, "({})", self.0),
             _ => write!(f, "{}", self.0),
+        }
+    }
+}
+
+/// What is raised to a power: anything but an atom is in parentheses.
+struct Base<'a>(&'a Formula);
+
+impl fmt::Display for Base<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.kind {
+            FormulaKind::Number(..)
+            | FormulaKind::Name(_)
+            | FormulaKind::Call(..)
+            | FormulaKind::Moving(_) => write!(f, "{}", self.0),
+            _ => write!(f, "({})", self.0),
+        }
+    }
+}
+
+impl fmt::Display for Moving {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Part(joint, part) => write!(f, "{joint}.{part}"),
+            Self::Rate(of) => write!(f, "dot({of})"),
+            Self::Distance(bodies) => write!(f, "distance({}, {})", bodies[0], bodies[1]),
+            Self::Place(axis, body) => write!(f, "{}({body})", ["x", "y", "z"][*axis % 3]),
         }
     }
 }

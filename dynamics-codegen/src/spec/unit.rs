@@ -32,6 +32,12 @@ impl Unit {
         Self { name: "deg", exponents: [0, 0, 0], scale: (1, 180, true) },
         unit("N", [1, 1, -2], 1, 1),
         unit("Nm", [1, 2, -2], 1, 1),
+        unit("Nms", [1, 2, -1], 1, 1),
+        unit("N_per_m", [1, 0, -2], 1, 1),
+        unit("Ns_per_m", [1, 0, -1], 1, 1),
+        unit("kg_m2", [1, 2, 0], 1, 1),
+        unit("J", [1, 2, -2], 1, 1),
+        unit("W", [1, 2, -3], 1, 1),
     ];
 
     /// The unit with the suffix `name`.

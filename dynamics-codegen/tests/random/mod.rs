@@ -1,8 +1,9 @@
 //! Random robots in motion: trees with oblique axes, branches, skewed inertias and mass at rest; of the shape `Any`
 //! with all kinds of joints, followers, rotors, dampers, friction and springs.
 
-use dynamics_codegen::model::{Drive, Frame, Link, Motion, Passive, Tree};
+use dynamics_codegen::model::{Drive, Frame, Link, Motion, Passive, Term, Terms, Tree};
 use dynamics_codegen::spatial::{Matrix3, Pose, PseudoInertia, Symmetric3, Vector3};
+use dynamics_codegen::spec::Function;
 
 /// Marsaglia's xorshift64.
 struct Random(u64);
@@ -86,7 +87,7 @@ impl Random {
         let carriers = (0..n).map(Some).chain([None]);
         let frames = carriers.map(|link| Frame { name: format!("on {link:?}"), link, pose: self.pose() });
         let frames = frames.collect();
-        Tree { links, base: self.body(), frames, gravity: self.vector(10.0) }
+        Tree { links, base: self.body(), frames, gravity: self.vector(10.0), terms: Terms::none() }
     }
 
     fn passive(&mut self) -> Passive<f64> {
@@ -97,6 +98,76 @@ impl Random {
             friction_speed: 0.1 + self.symmetric().abs(),
             stiffness: 5.0 * self.symmetric().abs(),
             rest: self.symmetric(),
+        }
+    }
+}
+
+/// Terms in the energies of a tree.
+impl Random {
+    fn any<T: Clone>(&mut self, of: &[T]) -> T {
+        of[self.below(of.len())].clone()
+    }
+
+    fn size(&mut self) -> Term<f64> {
+        Term::Still(0.2 + self.symmetric().abs())
+    }
+
+    /// A coordinate, or where frames are.
+    fn place(&mut self, tree: &Tree<f64>) -> Term<f64> {
+        let coordinates: Vec<Term<f64>> = tree.links.iter().flat_map(coordinates).collect();
+        match self.below(4) {
+            0 => Term::Place(self.below(3), self.below(tree.frames.len())),
+            1 => {
+                let a = self.below(tree.frames.len());
+                Term::Distance([Some(a), (0..a).last().filter(|_| self.chance())])
+            }
+            _ if coordinates.is_empty() => Term::Place(0, 0),
+            _ => self.any(&coordinates),
+        }
+    }
+
+    /// A speed, or how fast a place changes.
+    fn speed(&mut self, tree: &Tree<f64>) -> Term<f64> {
+        let of_joints = tree.links.iter().filter(|link| link.motion.speeds() > 1);
+        let own: Vec<usize> =
+            of_joints.flat_map(|link| link.drive.v..link.drive.v + link.motion.speeds()).collect();
+        match self.chance() && !own.is_empty() {
+            true => Term::Speed(self.any(&own)),
+            false => Term::Rate(Box::new(self.place(tree))),
+        }
+    }
+
+    fn terms(&mut self, tree: &Tree<f64>) -> Terms<f64> {
+        let square = |x: Term<f64>| Term::Power(Box::new(x), 2);
+        let times = |k: Term<f64>, x: Term<f64>| Term::Product(vec![k, x]);
+        let call = |function, x: Term<f64>| Term::Call(function, Box::new(x));
+        let plus = |a: Term<f64>, b: Term<f64>| Term::Sum(vec![a, b]);
+        let spring = Term::Sum(vec![self.place(tree), Term::Negative(Box::new(self.size()))]);
+        let wave = times(call(Function::Sin, self.place(tree)), call(Function::Cos, self.place(tree)));
+        let root = call(Function::Sqrt, plus(square(self.place(tree)), self.size()));
+        let well = Term::Quotient(Box::new([self.size(), plus(square(self.place(tree)), self.size())]));
+        let friction = call(Function::Sqrt, plus(square(self.speed(tree)), self.size()));
+        // A linear form whose coefficients change.
+        let mixed = times(call(Function::Sin, self.place(tree)), self.speed(tree));
+        let (mixed, own) = (plus(mixed, self.speed(tree)), self.speed(tree));
+        let weight = plus(square(self.place(tree)), self.size());
+        Terms {
+            potential: vec![times(self.size(), square(spring)), wave, root, well],
+            dissipation: vec![times(self.size(), square(self.speed(tree))), friction],
+            kinetic: vec![times(self.size(), square(mixed)), times(weight, square(own))],
+        }
+    }
+}
+
+/// The coordinates of a link that may stand in a term.
+fn coordinates(link: &Link<f64>) -> Vec<Term<f64>> {
+    let Drive { q, v, ratio, offset } = link.drive;
+    match link.motion {
+        Motion::Revolute | Motion::Prismatic => vec![Term::Coordinate { q, v: (v, v + 1), ratio, offset }],
+        Motion::Ball => vec![],
+        Motion::Free => {
+            let one = |k: usize| Term::Coordinate { q: q + k, v: (v, v + 3), ratio, offset };
+            (0..3).map(one).collect()
         }
     }
 }
@@ -130,6 +201,15 @@ pub(crate) fn state(seed: u64, n: usize, shape: Shape) -> State {
     let (mut q, n) = (random.numbers(tree.coordinates(), 3.0), tree.dof());
     tree.normalise(&mut q);
     State { tree, q, v: random.numbers(n, 2.0), a: random.numbers(n, 4.0) }
+}
+
+/// The same robot, with terms in its energies.
+#[allow(dead_code, reason = "some tests have no use for it")]
+pub(crate) fn with_terms(mut state: State, seed: u64) -> State {
+    let mut random = Random(0xA076_1D64_78BD_642F ^ seed.wrapping_mul(0xE703_7ED1_A0B4_28DB));
+    random.numbers(20, 1.0);
+    state.tree.terms = random.terms(&state.tree);
+    state
 }
 
 /// All of them, the simplest first.

@@ -19,7 +19,7 @@ pub const fn kinetic_energy() -> Energy {
     Energy { kinetic: true, potential: false }
 }
 
-/// The potential energy `V(q)` of gravity, 1, in J. `∂V/∂q = G`.
+/// The potential energy `V(q)`, 1, in J. `∂V/∂q = G`.
 pub const fn potential_energy() -> Energy {
     Energy { kinetic: false, potential: true }
 }

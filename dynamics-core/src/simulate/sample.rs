@@ -53,7 +53,7 @@ impl<R, T: fmt::Debug, const NQ: usize, const NV: usize> fmt::Debug for Sample<'
 pub struct Energy<T> {
     /// `½ vᵀ·M·v`.
     pub kinetic: T,
-    /// `V(q)`, of gravity.
+    /// `V(q)`, of gravity and the robot's own potentials.
     pub potential: T,
     /// That of springs in joints.
     pub elastic: T,

@@ -5,6 +5,7 @@ pub mod files;
 pub mod fixtures;
 pub mod industrial;
 pub mod joints;
+pub mod lagrangian;
 pub mod textbook;
 
 use dynamics_core::Costs;
@@ -48,10 +49,8 @@ impl Entry {
 
 /// All robots, small ones first.
 pub fn all() -> Vec<Entry> {
-    [textbook::all(), fixtures::all(), joints::all(), driven::all(), industrial::all(), files::all()]
-        .into_iter()
-        .flatten()
-        .collect()
+    let small = [textbook::all(), fixtures::all(), joints::all(), driven::all(), lagrangian::all()];
+    small.into_iter().chain([industrial::all(), files::all()]).flatten().collect()
 }
 
 /// All robots with their forms in double precision.

@@ -46,7 +46,7 @@ impl Function {
                 Some(function) => functions.push(function),
                 None => left_out.push(LeftOut {
                     function: robot.function(compiled.method),
-                    headline: headline(compiled.method),
+                    headline: headline(compiled.method, has_terms(input)),
                 }),
             }
         }
@@ -122,8 +122,12 @@ fn output(method: Method, block: &Block<'_>) -> Output {
     Output { name, shape: block.shape }
 }
 
+fn has_terms(input: &Input<'_, '_>) -> bool {
+    !input.model.tree.terms.is_empty()
+}
+
 fn function_comment(method: Method, cost: Cost, input: &Input<'_, '_>) -> String {
-    let mut lines = vec![headline(method).to_owned()];
+    let mut lines = vec![headline(method, has_terms(input)).to_owned()];
     if let Some(frame) = method.frame() {
         let name = &input.model.tree.frames[frame].name;
         lines = vec![format!("Frame `{name}`. {}", lines[0])];

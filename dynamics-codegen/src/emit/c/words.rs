@@ -3,9 +3,16 @@
 use crate::mechanics::equations::Method;
 use crate::passes::Cost;
 
-/// What a function computes.
-pub(super) fn headline(method: Method) -> &'static str {
+/// What a function computes, of a robot with terms of its own in its energies or without.
+pub(super) fn headline(method: Method, has_terms: bool) -> &'static str {
     match method {
+        Method::PotentialEnergy if has_terms => "V(q), of gravity and of terms of its own, in J.",
+        Method::PassiveForces if has_terms => {
+            "What dampers, friction, springs and terms of dissipation do, on the side of M a."
+        }
+        Method::Regressor if has_terms => {
+            "Y with tau = Y pi, pi the inertial parameters of all bodies, and 1 for each term of the energies."
+        }
         Method::MassMatrix => "M(q), symmetric and positive definite.",
         Method::InverseMassMatrix => "The inverse of M(q).",
         Method::CoriolisMatrix => "C(q,v), the one with dM/dt = C + C^T.",

@@ -7,10 +7,11 @@
 use super::kinematics::{jacobian_columns, link_poses};
 use super::passive;
 use super::six::{Matrix6, Six};
+use super::terms;
 use crate::model::Tree;
 use crate::spatial::Scalar;
 
-/// `M(q) = Σ J_Bᵀ M_B J_B` over all links, and the rotors, n×n, both halves.
+/// `M(q) = Σ J_Bᵀ M_B J_B` over all links, the rotors, and terms, n×n, both halves.
 pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
     let poses = link_poses(tree, q);
     let mut M = vec![vec![S::zero(); tree.dof()]; tree.dof()];
@@ -26,6 +27,9 @@ pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
                 M[i][j] = M[i][j] + other.dot(momentum);
             }
         }
+    }
+    for (row, added) in M.iter_mut().zip(terms::mass_matrix(tree, q)) {
+        row.iter_mut().zip(added).for_each(|(entry, added)| *entry = *entry + added);
     }
     for (link, k) in passive::one_dof(tree) {
         M[k][k] = M[k][k] + passive::reflected(link);

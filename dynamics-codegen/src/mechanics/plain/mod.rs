@@ -17,6 +17,7 @@ mod oracle;
 pub mod passive;
 mod rnea;
 mod six;
+mod terms;
 #[cfg(test)]
 mod tests;
 mod whole;
@@ -30,4 +31,5 @@ pub use mass_matrix::mass_matrix;
 pub use oracle::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives, Oracle};
 pub use rnea::{bias_forces, gravity_forces, inverse_dynamics};
 pub use six::{Matrix6, Six};
+pub use terms::{Flaw, flaw, flaw_of_dissipation};
 pub use whole::{center_of_mass, centroidal_momentum, total_mass};

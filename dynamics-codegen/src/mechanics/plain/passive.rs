@@ -2,12 +2,13 @@
 //!
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, ch. 9.6, for rotors.
 
+use super::terms::dissipation_forces;
 use crate::model::{Link, Tree};
 use crate::spatial::Scalar;
 
-/// The forces of dampers, friction and springs on the left-hand side, n.
+/// The forces of dampers, friction and springs on the left-hand side, and of terms of D, n.
 pub fn forces<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> Vec<S> {
-    let mut forces = vec![S::zero(); tree.dof()];
+    let mut forces = dissipation_forces(tree, q, v);
     for (link, k) in one_dof(tree) {
         let (passive, drive) = (link.passive, link.drive);
         let (p, s) = (drive.ratio * q[drive.q] + drive.offset, drive.ratio * v[drive.v]);

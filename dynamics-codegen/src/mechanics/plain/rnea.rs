@@ -7,25 +7,30 @@
 use super::kinematics::{joint_motion, motion_subspace, pose_in_parent};
 use super::passive;
 use super::six::{Matrix6, Six};
+use super::terms;
 use crate::model::{Link, Tree};
 use crate::spatial::{Scalar, Vector3};
 
-/// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)` and passive forces, N·m and N, positive along the joint's axis.
+/// The joint forces `τ = M(q)·a + C(q,v)·v + G(q)` and passive forces, with those of all terms, N·m and N, positive along the joint's axis.
 ///
 /// The world accelerates by minus gravity, so no link needs a weight.
 pub fn inverse_dynamics<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S], a: &[S]) -> Vec<S> {
-    let passive = passive::forces(tree, q, v);
-    recursion(tree, -tree.gravity, q, v, a)
-        .into_iter()
-        .zip(passive)
-        .map(|(tau, passive)| tau + passive)
-        .collect()
+    let others = [
+        passive::forces(tree, q, v),
+        terms::potential_forces(tree, q),
+        terms::inertial_forces(tree, q, v, a),
+    ];
+    others.into_iter().fold(recursion(tree, -tree.gravity, q, v, a), sum)
+}
+
+fn sum<S: Scalar>(forces: Vec<S>, others: Vec<S>) -> Vec<S> {
+    forces.into_iter().zip(others).map(|(force, other)| force + other).collect()
 }
 
 /// `G(q) = ∂V/∂q`, the forces that hold the tree at rest against gravity.
 pub fn gravity_forces<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<S> {
     let rest = vec![S::zero(); tree.dof()];
-    recursion(tree, -tree.gravity, q, &rest, &rest)
+    sum(recursion(tree, -tree.gravity, q, &rest, &rest), terms::potential_forces(tree, q))
 }
 
 /// `h(q,v) = C(q,v)·v + G(q)` and passive forces.
@@ -41,6 +46,7 @@ fn recursion<S: Scalar>(tree: &Tree<S>, base: Vector3<S>, q: &[S], v: &[S], a: &
 /// What of the recursion depends on the configuration alone, for many speeds.
 pub(super) struct Placed<'t, S> {
     tree: &'t Tree<S>,
+    q: &'t [S],
     /// `Ad(X_BP)` of every link: motions from the parent to the link; transposed, forces back.
     X: Vec<Matrix6<S>>,
     /// The inertia of every link.
@@ -49,10 +55,11 @@ pub(super) struct Placed<'t, S> {
 
 impl<'t, S: Scalar> Placed<'t, S> {
     /// The tree at the configuration `q`.
-    pub(super) fn at(tree: &'t Tree<S>, q: &[S]) -> Self {
+    pub(super) fn at(tree: &'t Tree<S>, q: &'t [S]) -> Self {
         let adjoint = |link: &Link<S>| Matrix6::adjoint(pose_in_parent(link, q).inverse());
         Self {
             tree,
+            q,
             X: tree.links.iter().map(adjoint).collect(),
             M: tree.links.iter().map(|link| Matrix6::inertia(&link.inertia)).collect(),
         }
@@ -60,12 +67,12 @@ impl<'t, S: Scalar> Placed<'t, S> {
 
     /// `M(q)·a + C(q,v)·v`, as if there were no gravity.
     pub(super) fn inertial_forces(&self, v: &[S], a: &[S]) -> Vec<S> {
-        self.forces(Vector3::zero(), v, a)
+        sum(self.forces(Vector3::zero(), v, a), terms::inertial_forces(self.tree, self.q, v, a))
     }
 
     /// The forces while the world accelerates by `base`.
     fn forces(&self, base: Vector3<S>, v: &[S], a: &[S]) -> Vec<S> {
-        let Self { tree, X, M } = self;
+        let Self { tree, X, M, .. } = self;
         let A_W = Six::new(base, Vector3::zero());
         let mut V: Vec<Six<S>> = Vec::with_capacity(tree.links.len());
         let mut A: Vec<Six<S>> = Vec::with_capacity(tree.links.len());

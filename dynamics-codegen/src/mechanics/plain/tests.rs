@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::Oracle;
-use crate::model::{Drive, Link, Motion, Passive, Tree};
+use crate::model::{Drive, Link, Motion, Passive, Terms, Tree};
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Symmetric3, Vector3};
 
 /// Some ten operations on numbers up to 10², rounded by 1e-16 each.
@@ -28,7 +28,7 @@ fn chain(links: Vec<(Motion, Pose<f64>, PseudoInertia<f64>)>, gravity: Vector3<f
         inertia,
     };
     let links = links.into_iter().enumerate().map(link).collect();
-    Tree { links, base: PseudoInertia::zero(), frames: Vec::new(), gravity }
+    Tree { links, base: PseudoInertia::zero(), frames: Vec::new(), gravity, terms: Terms::none() }
 }
 
 /// A point mass on a rod turning about z, hanging along x when q = 0: `τ = m l² a + m g l sin q`.

@@ -46,6 +46,7 @@ pub(super) fn read<'a>(reader: &mut Reader<'_>, element: Element<'a>, line: usiz
         pitch: None,
         parent: parent?,
         child: child?,
+        is_bare: false,
         keys,
         line,
         place: element.place(),

@@ -210,6 +210,7 @@ fn joint_of_root(name: String, kind: JointKind, root: Name, place: Place) -> Joi
         pitch: None,
         parent: named(WORLD.to_owned()),
         child: root,
+        is_bare: false,
         keys: Box::default(),
         line: 0,
         place: place.clone(),

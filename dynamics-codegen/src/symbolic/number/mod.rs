@@ -43,7 +43,7 @@ impl Number {
     pub const PI: Self = Self::Exact(Exact::PI);
 
     /// What is no number.
-    pub(super) const NAN: Self = Self::Float(Wide::NAN);
+    pub(crate) const NAN: Self = Self::Float(Wide::NAN);
 
     /// A whole number.
     pub const fn integer(value: i64) -> Self {

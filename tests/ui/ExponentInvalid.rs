@@ -1,0 +1,17 @@
+use dynamics_core::prelude::*;
+
+#[derive(Dynamics)]
+#[joint(theta: revolute(y), world -> arm)]
+#[body(arm)]
+#[joint(r: prismatic(-z), arm -> bob)]
+#[body(bob, solid = point(m))]
+#[potential(k * r^1.5)]
+struct OnASpring<T> {
+    m: T,
+    k: T,
+}
+
+fn main() {
+    let robot = OnASpring { m: 1.0, k: 20.0 };
+    println!("{}", robot.gravity_forces(&SVector::from([0.1, 0.5]))[1]);
+}
