@@ -4,6 +4,7 @@ pub mod aba;
 mod along;
 pub mod base_regressor;
 pub mod centroidal;
+pub mod closed;
 pub mod columns;
 pub mod composite;
 pub mod coupling;
