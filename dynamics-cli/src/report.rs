@@ -52,7 +52,8 @@ pub(crate) struct Args {
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
-    /// Speeds at the start of the swing; without it, zero
+    /// Speeds at the start of the swing; without it, zero, but for bodies that are free, which turn at 1 rad/s about
+    /// each of their axes
     #[arg(long, allow_hyphen_values = true)]
     v: Option<String>,
 
@@ -73,7 +74,7 @@ The page is one file and asks the network for nothing. It has sections of
   its equations              M, C, G, T, V and L, with LaTeX to be copied
   the structure of M         which entries are zero, which constant, and on what the others depend
   costs                      operations of each method, as `count` has them
-  a swing                    of the robot left to itself, until a joint comes to a limit
+  a swing                    of the robot left to itself, until a joint that slides comes to its end
   a linear model             A, B, poles, stability, controllability, and the torques that hold the robot
   the file                   what was merged, ignored and altered
 

@@ -89,7 +89,7 @@ export async function tried(task, done) {
     await browser.open();
   } catch (why) {
     console.log(`NOT CHECKED, there is no chromium (${why.message}); its path may be in CHROMIUM.`);
-    process.exit(0);
+    return;
   }
   try {
     await task(browser, wrong);
@@ -98,5 +98,5 @@ export async function tried(task, done) {
   }
   await browser.close();
   console.log(wrong.length ? wrong.join("\n") : done);
-  process.exit(wrong.length ? 1 : 0);
+  process.exitCode = wrong.length ? 1 : 0;
 }

@@ -1,6 +1,7 @@
 //! The linear model about the state in which the robot stands, and what holds it there.
 
 use dynamics_codegen::mechanics::equations::{Argument, Method};
+use dynamics_codegen::model::JointInfo;
 use dynamics_core::linear::Verdict;
 use dynamics_core::nalgebra::DMatrix;
 use dynamics_view::page::{Matrix, Section, Table, number};
@@ -17,6 +18,8 @@ const LARGEST: usize = 10;
 const MOST_POLES: usize = 40;
 /// Forces and accelerations below this part of the largest one are rounding.
 const ROUNDING: f64 = 1e-9;
+/// Poles that are smaller than this part of the largest one are zero, or next to it.
+const DOUBLE: f64 = 1e-7;
 /// The width of the picture of poles, in pixels.
 const WIDTH: f64 = 460.0;
 
@@ -119,11 +122,10 @@ fn matrices(section: Section, subject: &Subject<'_, '_>, a: &DMatrix<f64>, b: &D
             b.ncols()
         ));
     }
-    let displacements = robot.model.joints.iter().flat_map(dynamics_codegen::model::JointInfo::displacement_names);
-    let displacements = displacements.map(|name| format!("δ {name}"));
-    let speeds = robot.coordinates.v.iter().map(|name| format!("v {name}"));
-    let states: Vec<String> = displacements.chain(speeds).collect();
-    let inputs = robot.model.actuated.iter().map(|speed| format!("u {}", robot.coordinates.v[*speed])).collect();
+    let speeds = subject.letters(Argument::V);
+    let states: Vec<String> = displacements(subject).into_iter().chain(speeds).collect();
+    let forces = subject.letters(Argument::Tau);
+    let inputs = robot.model.actuated.iter().map(|speed| forces[*speed].clone()).collect();
     let rows = |m: &DMatrix<f64>| -> Vec<Vec<f64>> {
         (0..m.nrows()).map(|i| (0..m.ncols()).map(|j| m[(i, j)]).collect()).collect()
     };
@@ -144,6 +146,19 @@ fn matrices(section: Section, subject: &Subject<'_, '_>, a: &DMatrix<f64>, b: &D
             entries: rows(b),
         }),
     }
+}
+
+/// The letters of deviations: `δθ₁`, and of joints with quaternions `δrx`, in the axes of the body.
+fn displacements(subject: &Subject<'_, '_>) -> Vec<String> {
+    let letters = subject.letters(Argument::Q);
+    let of_joint = |joint: &JointInfo| -> Vec<String> {
+        if joint.q.len() == joint.v.len() {
+            return joint.q.clone().map(|q| format!("δ{}", letters[q])).collect();
+        }
+        let names = joint.displacement_names();
+        names.iter().map(|name| format!("δ{}", name.rsplit('.').next().unwrap_or(name))).collect()
+    };
+    subject.robot.model.joints.iter().flat_map(of_joint).collect()
 }
 
 fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64>, holding: &Holding) -> Section {
@@ -169,29 +184,31 @@ fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64
     }
 }
 
-/// Poles with positive imaginary part stand for their pair.
+/// Poles with positive imaginary part stand for their pair. A double pole at zero is found within the root of what rounding
+/// is, so that nothing more can be said of what is that small.
 fn table(poles: &[[f64; 2]]) -> Table {
     let size = poles.iter().fold(0.0, |size: f64, [re, im]| size.max(re.hypot(*im)));
-    let short = |x: f64| if x.abs() <= 1e-12 * size { 0.0 } else { x };
     let row = |[re, im]: &[f64; 2]| {
         let frequency = re.hypot(*im);
-        let pole = match short(*im) {
-            0.0 => number(short(*re), 5),
-            im => format!("{} ± {}i", number(short(*re), 5), number(im, 5)),
+        if frequency <= DOUBLE * size {
+            let about = if frequency == 0.0 { "0" } else { "≈ 0" };
+            return vec![about.to_owned(), about.to_owned(), String::new(), "stays, or grows with time".to_owned()];
+        }
+        let short = |x: f64| if x.abs() <= 1e-12 * frequency { 0.0 } else { x };
+        let (re, im) = (short(*re), short(*im));
+        let pole = match im {
+            0.0 => number(re, 5),
+            im => format!("{} ± {}i", number(re, 5), number(im, 5)),
         };
-        let [damping, period] = match frequency <= 1e-12 * size {
-            true => [String::new(), String::new()],
-            false => [number(short(-re / frequency * size) / size, 4), time(*re, *im)],
-        };
-        vec![pole, number(short(frequency), 5), damping, period]
+        vec![pole, number(frequency, 5), number(-re / frequency, 4), time(re, im)]
     };
-    let upper: Vec<&[f64; 2]> = poles.iter().filter(|[_, im]| short(*im) >= 0.0).collect();
+    let upper: Vec<&[f64; 2]> = poles.iter().filter(|[_, im]| *im >= 0.0).collect();
     let caption = match upper.len() > MOST_POLES {
         true => format!("The slowest {MOST_POLES} of {} poles and pairs", upper.len()),
-        false => "Poles, the slowest first".to_owned(),
+        false => "Poles, the slowest first, with natural frequency ω and damping ratio ζ".to_owned(),
     };
     Table::new(&caption, "lrrl")
-        .head(["pole, 1/s", "natural frequency, rad/s", "damping ratio", "in time"])
+        .head(["pole, 1/s", "ω, rad/s", "ζ", "in time"])
         .rows(upper.into_iter().take(MOST_POLES).map(row))
 }
 

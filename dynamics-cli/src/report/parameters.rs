@@ -16,7 +16,7 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let bodies = scene::of(robot, String::new()).bodies;
     let mut section = Section::new("parameters", "Parameters")
         .text("All numbers are in SI units, angles in radians.")
-        .preformatted("The tree of bodies", tree::draw(&robot.spec, &robot.report.root).trim_end())
+        .preformatted("The tree of bodies", &tree(subject))
         .heading("Masses")
         .table(masses(&bodies))
         .remark(
@@ -46,6 +46,12 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     }
 }
 
+/// The tree as `check` draws it, without its margin.
+fn tree(subject: &Subject<'_, '_>) -> String {
+    let drawn = tree::draw(&subject.robot.spec, &subject.robot.report.root);
+    drawn.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect::<Vec<_>>().join("\n")
+}
+
 /// Rows with their head before them; the columns behind the names are numbers.
 fn table(caption: &str, rows: &[Vec<String>]) -> Table {
     let Some((head, rows)) = rows.split_first() else { return Table::new(caption, "") };
@@ -59,7 +65,9 @@ fn masses(bodies: &[Body]) -> Table {
     let head = ["body", "mass, kg", "c, m", "Ixx", "Iyy", "Izz", "Ixy", "Ixz", "Iyz, kg·m²"];
     let row = |body: &Body| {
         let [[xx, xy, xz], [_, yy, yz], [_, _, zz]] = body.inertia;
-        let moments = [xx, yy, zz, xy, xz, yz].map(|moment| number(moment, DIGITS));
+        // What is left of a product of inertia by moving it to another frame is rounding.
+        let short = |moment: f64| if moment.abs() <= 1e-12 * (xx + yy + zz) { 0.0 } else { moment };
+        let moments = [xx, yy, zz, xy, xz, yz].map(|moment| number(short(moment), DIGITS));
         let name = format!("`{}`", body.name);
         [vec![name, number(body.mass, DIGITS), vector(body.com)], moments.to_vec()].concat()
     };

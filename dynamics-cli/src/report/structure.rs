@@ -24,12 +24,15 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let letters = subject.letters(Argument::Q);
     let variables = variables(robot, &letters);
     let cells = cells(robot, &variables);
-    let speeds = subject.letters(Argument::V);
-    let names = robot.coordinates.v.iter().zip(&speeds);
-    let names = names.map(|(name, letter)| if name == letter { name.clone() } else { format!("{name}  {letter}") });
+    let columns = subject.letters(Argument::V);
+    let rows = robot.coordinates.v.iter().zip(&columns).map(|(name, letter)| match name == letter {
+        true => name.clone(),
+        false => format!("`{name}` {letter}"),
+    });
     let pattern = Pattern {
         caption: "On what the entries of M depend".to_owned(),
-        names: names.collect(),
+        rows: rows.collect(),
+        columns,
         variables: variables.into_iter().map(|variable| variable.name).collect(),
         cells: cells.clone(),
     };

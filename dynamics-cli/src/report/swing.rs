@@ -1,7 +1,7 @@
 //! A robot left to itself for a while.
 
 use dynamics_core::Energy;
-use dynamics_view::Measure;
+use dynamics_view::{Coordinate, Measure};
 use dynamics_view::page::{Section, number};
 
 use super::Subject;
@@ -15,10 +15,14 @@ use crate::state;
 
 /// How far each joint that turns is from neutral where nothing else is said, rad.
 const OFF: f64 = 0.3;
+/// How fast a body that is free turns about each of its axes where nothing else is said, rad/s.
+const SPIN: f64 = 1.0;
 
-/// A motion, and why it ended.
+/// A motion, and what became of it.
 pub(super) struct Swing {
     moments: Vec<Moment>,
+    /// The joints that went beyond their limits, each with when.
+    beyond: Vec<(String, f64)>,
     end: End,
 }
 
@@ -26,8 +30,8 @@ pub(super) struct Swing {
 enum End {
     /// The time was over.
     Time,
-    /// A joint came to a limit.
-    Limit { joint: String },
+    /// A joint that slides came to its end.
+    Stop { joint: String },
     /// Numbers got out of hand.
     Lost { why: String },
 }
@@ -37,7 +41,8 @@ pub(super) fn usual_time(robot: &Robot<'_>) -> f64 {
     if parts(robot).loose.iter().any(|joint| joint.is_free) { 1.0 } else { 3.0 }
 }
 
-/// Where it starts: at rest, off by the same angle in each joint, as far as their limits allow; or as it is said.
+/// Where it starts: off by the same angle in each joint, as far as their limits allow, and at rest but for bodies that are
+/// free, which spin; or as it is said.
 pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Result<State, Failure> {
     let mut start = State::neutral(robot);
     if q.is_none() {
@@ -46,6 +51,12 @@ pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Resu
             let off = if part.measure == Measure::Angle { OFF } else { 0.0 };
             // Where a limit is nearer than that, the way to it is halved.
             start.q[part.q] = if off > high { high / 2.0 } else { off }.clamp(low, high.max(low));
+        }
+    }
+    if v.is_none() {
+        for joint in parts(robot).loose {
+            let from = if joint.is_free { joint.v + 3 } else { joint.v };
+            start.v[from..from + 3].fill(SPIN);
         }
     }
     state::override_by("q", &mut start.q, q, &robot.coordinates.q)?;
@@ -73,7 +84,7 @@ impl Swing {
             .collect();
         // What the picture shows 60 times a second need not be kept a thousand times.
         let stride = (1.0 / (240.0 * step)).floor().max(1.0) as u64;
-        let mut swing = Self { moments: vec![moment(robot, 0.0, &start)?], end: End::Time };
+        let mut swing = Self { moments: vec![moment(robot, 0.0, &start)?], beyond: vec![], end: End::Time };
         let mut state = start;
         for k in 1..=clock.steps {
             let (before, now) = (clock.at(k - 1), clock.at(k));
@@ -88,9 +99,17 @@ impl Swing {
                 }
                 Err(failure) => return Err(failure),
             };
-            let beyond = bounded.iter().find(|([low, high], part)| !(*low..=*high).contains(&next.q[part.q]));
-            if let Some((_, part)) = beyond {
-                swing.end = End::Limit { joint: part.name.clone() };
+            let is_beyond = |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&next.q[part.q]);
+            for (_, part) in bounded.iter().filter(is_beyond) {
+                match part.measure {
+                    Measure::Distance => swing.end = End::Stop { joint: part.name.clone() },
+                    Measure::Angle if swing.beyond.iter().all(|(known, _)| *known != part.name) => {
+                        swing.beyond.push((part.name.clone(), now));
+                    }
+                    Measure::Angle => {}
+                }
+            }
+            if matches!(swing.end, End::Stop { .. }) {
                 break;
             }
             if k % stride == 0 || k == clock.steps {
@@ -113,9 +132,7 @@ impl Swing {
         let time = number(last.time, 4);
         let ending = match &self.end {
             End::Time => format!("for {time} s"),
-            End::Limit { joint } => {
-                format!("for {time} s, until `{joint}` comes to its limit, where nothing here stops it")
-            }
+            End::Stop { joint } => format!("for {time} s, until `{joint}` comes to its end"),
             End::Lost { why } => {
                 format!("for {time} s; then {why}: with a smaller `--step` it may go on")
             }
@@ -130,12 +147,25 @@ impl Swing {
             false => format!("Nothing takes energy from it: the total changed by no more than {drift} J, which is the method's error."),
         };
         Section::new("swing", "A swing")
-            .text(&format!("The robot left to itself {ending}. Its motors are off. {account}"))
+            .text(&format!("The robot left to itself {ending}. Its motors are off. {account}{}", self.limits_passed()))
             .swing()
             .remark(
                 "By the classical method of Runge and Kutta, of fourth order; `dynamics simulate` writes the numbers, \
                  with other starts (`--q`, `--v`) and steps.",
             )
+    }
+}
+
+impl Swing {
+    /// Which joints went where they cannot.
+    fn limits_passed(&self) -> String {
+        let Some((joint, time)) = self.beyond.first() else { return String::new() };
+        let others = match self.beyond.len() - 1 {
+            0 => String::new(),
+            1 => ", and one other later".to_owned(),
+            more => format!(", and {more} others later"),
+        };
+        format!(" Its joints have no stops here: `{joint}` passes its limit after {} s{others}.", number(*time, 3))
     }
 }
 

@@ -86,11 +86,12 @@ impl Html {
     pub(super) fn equation(&mut self, Equation { title, mathml, latex }: &Equation, id: &str) {
         let lines: Vec<String> = latex.lines().map(escaped).collect();
         self.put(&format!(
-            r#"<div class="equation"><div class="display" role="group" tabindex="0" aria-label="{title}">
+            r#"<div class="equation"><p class="name" id="{id}-name">{title} <button type="button" class="copy script-only" data-of="{id}" aria-label="copy the LaTeX of: {title}">copy LaTeX</button></p>
+<div class="display" role="group" tabindex="0" aria-labelledby="{id}-name">
 {mathml}
 </div>
 <details><summary>LaTeX<span class="unseen"> of: {title}</span></summary>
-<button type="button" class="copy script-only" data-of="{id}">copy</button><pre><code id="{id}">{}</code></pre>
+<pre tabindex="0"><code id="{id}">{}</code></pre>
 </details></div>"#,
             lines.join("\n"),
             title = escaped(title),
@@ -98,7 +99,7 @@ impl Html {
     }
 
     pub(super) fn figure(&mut self, svg: &str) {
-        self.put(&format!(r#"<div class="figure">{svg}</div>"#));
+        self.put(&format!(r#"<div class="figure beside">{svg}</div>"#));
     }
 }
 

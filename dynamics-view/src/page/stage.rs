@@ -150,7 +150,7 @@ impl Stage {
         html.put(r#"<div class="still">"#);
         for chart in &self.charts {
             let figure = Figure::new("").with(chart.clone()).wide(STILL);
-            html.figure(&figure.fragment("a chart over time")?);
+            html.put(&figure.fragment("a chart over time")?);
         }
         html.put("</div>");
         Ok(())

@@ -34,8 +34,10 @@ pub struct Matrix {
 pub struct Pattern {
     /// What it is, in words.
     pub caption: String,
-    /// The names of its rows, which are those of its columns.
-    pub names: Vec<String>,
+    /// The names of its rows.
+    pub rows: Vec<String>,
+    /// Those of its columns, in few letters.
+    pub columns: Vec<String>,
     /// What entries can depend on, in few letters: `q₁`.
     pub variables: Vec<String>,
     /// By rows.
@@ -150,8 +152,9 @@ impl Matrix {
 
 impl Pattern {
     pub(super) fn write(&self, html: &mut Html) -> Result<(), Error> {
-        let n = self.names.len();
+        let n = self.rows.len();
         check_length("the rows of a pattern", n, self.cells.len())?;
+        check_length("the columns of a pattern", n, self.columns.len())?;
         let size = if n <= NAMED { "" } else { " small" };
         html.put(r#"<div class="wide" tabindex="0" role="group" aria-label="the structure, to be scrolled">"#);
         html.put(&format!(
@@ -163,9 +166,9 @@ impl Pattern {
             true => format!(r#"<th scope="col">{}</th>"#, inline(name)),
             false => format!(r#"<th scope="col" title="{}">{}</th>"#, escaped(name), k + 1),
         };
-        let columns: String = self.names.iter().enumerate().map(column).collect();
+        let columns: String = self.columns.iter().enumerate().map(column).collect();
         html.put(&format!("<thead><tr><td></td>{columns}</tr></thead><tbody>"));
-        for (i, (name, row)) in self.names.iter().zip(&self.cells).enumerate() {
+        for (i, (name, row)) in self.rows.iter().zip(&self.cells).enumerate() {
             check_length("a row of a pattern", n, row.len())?;
             let cells: String = row.iter().map(|cell| self.cell(cell, n <= NAMED)).collect();
             let number = if n <= NAMED { String::new() } else { format!("{} ", i + 1) };
@@ -196,4 +199,4 @@ impl Pattern {
     }
 }
 
-const LEGEND: &str = r#"<p class="legend-of-pattern"><span class="zero">0</span> zero at every configuration <span class="constant">c</span> a constant <span class="varies depth1">q</span> depends on one coordinate <span class="varies depth5">q q q</span> on several</p>"#;
+const LEGEND: &str = r#"<p class="legend-of-pattern"><span class="zero">0</span> always zero <span class="constant">c</span> constant <span class="varies depth1">q</span> depends on one coordinate <span class="varies depth5">q q q</span> on several</p>"#;
