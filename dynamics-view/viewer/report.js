@@ -161,6 +161,8 @@ addEventListener("scroll", soon, { passive: true });
 let closed = [];
 addEventListener("beforeprint", () => { closed = [...document.querySelectorAll("details.also-in-print:not([open])")]; closed.forEach((part) => (part.open = true)); });
 addEventListener("afterprint", () => closed.forEach((part) => (part.open = false)));
+// Who falls is followed.
+shown.follow = shown.follow || data.bodies.some((body) => body.kind === "free");
 resetCamera();
 press();
 showAll();

@@ -165,8 +165,9 @@ fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64
     let judgement = judge(a, b);
     let poles = match &judgement {
         Some(judgement) => judgement.poles.clone(),
-        None => eigenvalues(a.clone()).unwrap_or_default(),
+        None => sorted(eigenvalues(a.clone()).unwrap_or_default()),
     };
+    let poles: Vec<[f64; 2]> = poles.into_iter().map(|pole| cleared(pole, a.norm())).collect();
     let section = section.heading("Poles");
     if poles.is_empty() {
         return section.text("The poles cannot be found.");
@@ -176,33 +177,52 @@ fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64
         .figure("The poles of the linear model, in the complex plane", Figure::new("").with(chart).wide(WIDTH))
         .table(table(&poles));
     match judgement {
-        Some(judgement) => section.list(sentences(&judgement, robot, holding)),
-        None => section.text(
+        Some(judgement) => section.list(sentences(&judgement, robot, holding, a.norm())),
+        None => section.remark(
             "Stability and controllability are judged, beyond what rounding can decide, for robots of up to 18 degrees of \
              freedom.",
         ),
     }
 }
 
-/// Poles with positive imaginary part stand for their pair. A double pole at zero is found within the root of what rounding
-/// is, so that nothing more can be said of what is that small.
+/// The slowest first.
+fn sorted(mut poles: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    poles.sort_by(|one, other| other[0].total_cmp(&one[0]));
+    poles
+}
+
+/// A pole without what is rounding, beside the norm of A. A double pole at zero is found within the root of what rounding
+/// is, so that what is that small is zero.
+fn cleared([re, im]: [f64; 2], norm: f64) -> [f64; 2] {
+    let frequency = re.hypot(im);
+    if frequency <= DOUBLE * norm {
+        return [0.0; 2];
+    }
+    [re, im].map(|x| if x.abs() <= 1e-12 * frequency { 0.0 } else { x })
+}
+
+/// Poles with positive imaginary part stand for their pair; those at zero are one row.
 fn table(poles: &[[f64; 2]]) -> Table {
-    let size = poles.iter().fold(0.0, |size: f64, [re, im]| size.max(re.hypot(*im)));
+    let zeros = poles.iter().filter(|pole| **pole == [0.0; 2]).count();
     let row = |[re, im]: &[f64; 2]| {
         let frequency = re.hypot(*im);
-        if frequency <= DOUBLE * size {
-            let about = if frequency == 0.0 { "0" } else { "≈ 0" };
-            return vec![about.to_owned(), about.to_owned(), String::new(), "stays, or grows with time".to_owned()];
+        if frequency == 0.0 {
+            let count = if zeros > 1 { format!("0, {zeros} times") } else { "0".to_owned() };
+            return vec![count, "0".to_owned(), String::new(), "stays, or drifts".to_owned()];
         }
-        let short = |x: f64| if x.abs() <= 1e-12 * frequency { 0.0 } else { x };
-        let (re, im) = (short(*re), short(*im));
-        let pole = match im {
-            0.0 => number(re, 5),
-            im => format!("{} ± {}i", number(re, 5), number(im, 5)),
+        let pole = match *im {
+            0.0 => number(*re, 5),
+            im => format!("{} ± {}i", number(*re, 5), number(im, 5)),
         };
-        vec![pole, number(frequency, 5), number(-re / frequency, 4), time(re, im)]
+        vec![pole, number(frequency, 5), number(-re / frequency, 4), time(*re, *im)]
     };
-    let upper: Vec<&[f64; 2]> = poles.iter().filter(|[_, im]| *im >= 0.0).collect();
+    let mut upper: Vec<&[f64; 2]> = poles.iter().filter(|[_, im]| *im >= 0.0).collect();
+    let first = upper.iter().position(|pole| **pole == [0.0; 2]);
+    let mut k = 0;
+    upper.retain(|pole| {
+        k += 1;
+        **pole != [0.0; 2] || first == Some(k - 1)
+    });
     let caption = match upper.len() > MOST_POLES {
         true => format!("The slowest {MOST_POLES} of {} poles and pairs", upper.len()),
         false => "Poles, the slowest first, with natural frequency ω and damping ratio ζ".to_owned(),
@@ -228,7 +248,7 @@ fn time(re: f64, im: f64) -> String {
     [turns, of_size].into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
-fn sentences(judgement: &Judgement, robot: &Robot<'_>, holding: &Holding) -> Vec<String> {
+fn sentences(judgement: &Judgement, robot: &Robot<'_>, holding: &Holding, norm: f64) -> Vec<String> {
     let Judgement { verdict, margin, reached, distance, missing, .. } = judgement;
     let all = 2 * robot.dof();
     let margin = number(*margin, 2);
@@ -249,14 +269,26 @@ fn sentences(judgement: &Judgement, robot: &Robot<'_>, holding: &Holding) -> Vec
              norms of A and B away."
         ),
         (_, false) => {
-            let poles = missing.iter().map(|[re, im]| match *im {
-                0.0 => number(*re, 3),
-                im => format!("{} {} {}i", number(*re, 3), if im < 0.0 { "−" } else { "+" }, number(im.abs(), 3)),
-            });
+            let mut lost: Vec<(String, usize)> = vec![];
+            for pole in missing.iter().map(|pole| cleared(*pole, norm)) {
+                let text = match pole {
+                    [re, 0.0] => number(re, 3),
+                    [re, im] => format!("{} {} {}i", number(re, 3), if im < 0.0 { "−" } else { "+" }, number(im.abs(), 3)),
+                };
+                match lost.iter_mut().find(|(known, _)| *known == text) {
+                    Some((_, count)) => *count += 1,
+                    None => lost.push((text, 1)),
+                }
+            }
+            let times = |(pole, count): &(String, usize)| match count {
+                1 => pole.clone(),
+                count => format!("{pole} ({count} times)"),
+            };
+            let poles: Vec<String> = lost.iter().map(times).collect();
             format!(
                 "It is not controllable: its motors reach {reached} of {all} states. The modes that they miss have the poles \
                  {}.",
-                poles.collect::<Vec<_>>().join(", ")
+                poles.join(", ")
             )
         }
     };
