@@ -18,6 +18,8 @@ pub struct Letter {
     pub name: Name,
     /// What it is.
     pub role: Role,
+    /// Where a parameter stands among factors: masses before what weighs, and that before lengths.
+    pub rank: u8,
     /// In Unicode and in LaTeX.
     texts: [String; 2],
 }
@@ -59,12 +61,17 @@ impl Notation {
                     || self.letters.iter().any(|letter| letter.texts.contains(text))
             };
             if !texts.iter().any(is_taken) {
-                self.letters.push(Letter { name, role, texts });
+                self.letters.push(Letter { name, role, rank: 0, texts });
                 return symbol;
             }
             text.push('_');
             name = Name::word(&text);
         }
+    }
+
+    /// Moves a parameter behind those of smaller rank; without it the rank is zero, and symbols have their own order.
+    pub fn set_rank(&mut self, symbol: SymbolId, rank: u8) {
+        self.letters[symbol.0 as usize].rank = rank.min(u8::MAX - 1);
     }
 
     /// Says that four coordinates are a unit quaternion.

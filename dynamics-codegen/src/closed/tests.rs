@@ -123,11 +123,7 @@ fn forms_are_written_as_people_write_them() {
             "−g cos(θ₁ + θ₂) load",
             "-g \\cos\\left(\\theta_1 + \\theta_2\\right) \\mathrm{load}",
         ),
-        (
-            Form::product([Form::integer(2), b.clone()]).cos().power(2),
-            "cos² 2θ₂",
-            "\\cos^{2} 2\\theta_2",
-        ),
+        (Form::product([Form::integer(2), b.clone()]).cos().power(2), "cos² 2θ₂", "\\cos^{2} 2\\theta_2"),
         (g.clone().over(Form::product([l.clone(), m1.clone()])).negative(), "−g/(l m₁)", "-\\frac{g}{l m_1}"),
         (
             Form::sum([m1.clone(), Form::sum([l.clone(), g.clone()]).negative()]),

@@ -2,10 +2,11 @@
 //!
 //! They are made from the frames and masses as they were given, not from those that the programs run on, so that the
 //! robot's own parameters stand in them.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::equations::{Argument, Inputs};
 use super::plain;
-use crate::closed::{Form, Matrix, Name, Notation, Role, close};
+use crate::closed::{Canonical, Form, Matrix, Name, Notation, Polynomial, Role, Swelling};
 use crate::model::{JointInfo, Model, Parameter};
 use crate::symbolic::{Expr, Graph, Number, SymbolId};
 
@@ -30,39 +31,167 @@ pub struct ClosedForms {
     pub lagrangian: Form,
 }
 
-/// The equations of `model` in closed form.
-pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> ClosedForms {
+/// Products of terms that are made for one robot at most: a fraction of a second, unoptimised.
+const WORK: usize = 60_000;
+
+/// Entries with more terms than this are not written out.
+const TERMS: usize = 60;
+
+/// The equations of `model` in closed form: `T` and `V` by the plain recursion, multiplied out, and the rest by
+/// Lagrange's equations.
+///
+/// # Errors
+///
+/// If the robot is too large.
+pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
     let inputs = Inputs::of(model);
-    let mut notation = notation(model);
+    let notation = notation(model);
     let [q, v] = [Argument::Q, Argument::V].map(|argument| inputs.vector(graph, argument));
-    let tree = &model.tree;
-    let upper = |rows: Vec<Vec<Expr<'g>>>| {
-        rows.into_iter().enumerate().flat_map(|(k, row)| row.into_iter().skip(k)).collect::<Vec<_>>()
-    };
-    let mut entries = upper(plain::mass_matrix(tree, &q));
-    entries.extend(plain::coriolis_matrix(tree, &q, &v).concat());
-    entries.extend(plain::gravity_forces(tree, &q));
-    entries.push(plain::kinetic_energy(tree, &q, &v));
-    entries.push(plain::potential_energy(tree, &q));
-    entries.push(plain::lagrangian(tree, &q, &v));
-    let closed = close(graph, &mut notation, &entries);
-    let mut forms = closed.forms.into_iter();
+    let T = plain::kinetic_energy(&model.tree, &q, &v);
+    let V = plain::potential_energy(&model.tree, &q);
+    let mut lagrange = Lagrange::new(model, graph, &notation, [T, V])?;
     let n = inputs.dof;
+    let M = lagrange.mass_matrix()?;
+    let mut all: Vec<Polynomial> = (0..n).flat_map(|i| M[i][i..].iter().cloned()).collect();
+    all.extend(lagrange.coriolis_matrix(&M)?.concat());
+    all.extend(lagrange.gravity_forces()?);
+    all.push(lagrange.T.clone());
+    all.push(lagrange.V.clone());
+    all.push(lagrange.T.plus(-Number::ONE, &lagrange.V));
+    let mut forms = lagrange.canonical.forms(&notation, &all, TERMS)?.into_iter();
     let mut row = |length: usize| forms.by_ref().take(length).collect::<Vec<_>>();
     let mass_matrix = Matrix::symmetric((0..n).map(|k| row(n - k)).collect());
     let coriolis_matrix = Matrix::of_rows((0..n).map(|_| row(n)).collect());
     let gravity_forces = Matrix::vector(row(n));
     let mut next = || row(1).pop().unwrap_or(Form::ZERO);
     let (kinetic_energy, potential_energy, lagrangian) = (next(), next(), next());
-    ClosedForms {
+    Ok(ClosedForms {
         notation,
-        definitions: closed.definitions,
+        definitions: vec![],
         mass_matrix,
         coriolis_matrix,
         gravity_forces,
         kinetic_energy,
         potential_energy,
         lagrangian,
+    })
+}
+
+/// Lagrange's equations in the normal form, as `lagrange.rs` has them for expressions.
+struct Lagrange<'g> {
+    canonical: Canonical<'g>,
+    T: Polynomial,
+    V: Polynomial,
+    /// The symbols of coordinates and speeds.
+    q: Vec<SymbolId>,
+    v: Vec<SymbolId>,
+    /// The rates of the coordinates at each unit speed.
+    directions: Vec<Vec<Polynomial>>,
+    /// `[e_i, e_j]` of unit speeds, and `[v, e_j]`.
+    brackets: Vec<Vec<Vec<Polynomial>>>,
+    brackets_with_v: Vec<Vec<Polynomial>>,
+}
+
+impl<'g> Lagrange<'g> {
+    fn new(
+        model: &Model<'g>,
+        graph: &'g Graph,
+        notation: &Notation,
+        [T, V]: [Expr<'g>; 2],
+    ) -> Result<Self, Swelling> {
+        let inputs = Inputs::of(model);
+        let symbols = |argument| (0..inputs.size(argument)).map(|k| inputs.symbol(argument, k)).collect();
+        let [q, v] = [Argument::Q, Argument::V].map(|argument| inputs.vector(graph, argument));
+        let unit = |k: usize| -> Vec<Expr<'g>> {
+            (0..inputs.dof).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect()
+        };
+        let units: Vec<_> = (0..inputs.dof).map(unit).collect();
+        // The coordinates are among the expressions, so that they are variables in their order.
+        let mut exprs = vec![T, V];
+        exprs.extend(q.iter().chain(&v));
+        let mut canonical = Canonical::new(graph, notation, &exprs, WORK)?;
+        let mut all = |exprs: Vec<Expr<'g>>| -> Result<Vec<Polynomial>, Swelling> {
+            exprs.into_iter().map(|expr| canonical.polynomial(expr)).collect()
+        };
+        let tree = &model.tree;
+        let directions = units.iter().map(|unit| all(tree.configuration_rate(&q, unit)));
+        let directions = directions.collect::<Result<_, _>>()?;
+        let (mut brackets, mut brackets_with_v) = (vec![], vec![]);
+        if !tree.is_one_dof() {
+            for i in &units {
+                let row = units.iter().map(|j| all(plain::bracket(tree, i, j)));
+                brackets.push(row.collect::<Result<Vec<_>, _>>()?);
+                brackets_with_v.push(all(plain::bracket(tree, &v, i))?);
+            }
+        }
+        let (T, V) = (canonical.polynomial(T)?, canonical.polynomial(V)?);
+        let (q, v) = (symbols(Argument::Q), symbols(Argument::V));
+        Ok(Self { canonical, T, V, q, v, directions, brackets, brackets_with_v })
+    }
+
+    /// The derivatives along the directions of unit speeds.
+    fn along(&mut self, a: &Polynomial) -> Result<Vec<Polynomial>, Swelling> {
+        let by_q: Vec<_> =
+            self.q.iter().map(|&symbol| self.canonical.derivative(a, symbol)).collect::<Result<_, _>>()?;
+        self.directions.iter().map(|direction| self.canonical.dot(&by_q, direction)).collect()
+    }
+
+    /// `∂T/∂v`
+    fn momentum(&mut self) -> Result<Vec<Polynomial>, Swelling> {
+        self.v.iter().map(|&symbol| self.canonical.derivative(&self.T, symbol)).collect()
+    }
+
+    fn mass_matrix(&mut self) -> Result<Vec<Vec<Polynomial>>, Swelling> {
+        let momentum = self.momentum()?;
+        let row =
+            |p: &Polynomial| self.v.iter().map(|&symbol| self.canonical.derivative(p, symbol)).collect();
+        momentum.iter().map(row).collect()
+    }
+
+    fn gravity_forces(&mut self) -> Result<Vec<Polynomial>, Swelling> {
+        self.along(&self.V.clone())
+    }
+
+    /// By Koszul's formula; between joints of one degree of freedom it is Christoffel's.
+    fn coriolis_matrix(&mut self, M: &[Vec<Polynomial>]) -> Result<Vec<Vec<Polynomial>>, Swelling> {
+        let n = self.v.len();
+        let v: Vec<Polynomial> = self.speeds()?;
+        // The rates of the upper half: dM[i][j][k] = E_k(M_ij).
+        let mut dM = vec![vec![vec![]; n]; n];
+        for i in 0..n {
+            for j in i..n {
+                dM[i][j] = self.along(&M[i][j])?;
+                dM[j][i] = dM[i][j].clone();
+            }
+        }
+        let momentum = self.momentum()?;
+        let (half, minus) = (Number::ratio(1, 2), -Number::ONE);
+        let mut C = vec![vec![Polynomial::zero(); n]; n];
+        for i in 0..n {
+            for j in 0..n {
+                let mut twice = Polynomial::zero();
+                for k in 0..n {
+                    let symbol = dM[i][j][k].plus(Number::ONE, &dM[i][k][j]).plus(minus, &dM[j][k][i]);
+                    if !symbol.is_zero() {
+                        twice = twice.plus(Number::ONE, &self.canonical.product(&symbol, &v[k])?);
+                    }
+                }
+                if !self.brackets.is_empty() {
+                    let canonical = &mut self.canonical;
+                    twice = twice
+                        .plus(Number::ONE, &canonical.dot(&M[i], &self.brackets_with_v[j])?)
+                        .plus(minus, &canonical.dot(&M[j], &self.brackets_with_v[i])?)
+                        .plus(minus, &canonical.dot(&momentum, &self.brackets[j][i])?);
+                }
+                C[i][j] = twice.scaled(half);
+            }
+        }
+        Ok(C)
+    }
+
+    fn speeds(&mut self) -> Result<Vec<Polynomial>, Swelling> {
+        let momentum = self.v.clone();
+        momentum.into_iter().map(|symbol| self.canonical.symbol(symbol)).collect()
     }
 }
 
@@ -74,7 +203,9 @@ pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> ClosedForms {
 pub fn notation(model: &Model<'_>) -> Notation {
     let mut notation = Notation::new();
     for parameter in &model.parameters {
-        notation.add(parameter_name(parameter), Role::Parameter);
+        let symbol = notation.add(parameter_name(parameter), Role::Parameter);
+        let rank = |unit: &[i64; 3]| Some(unit.map(Number::integer)) == parameter.exponents;
+        notation.set_rank(symbol, RANKS.iter().position(rank).map_or(u8::MAX, |rank| rank as u8));
     }
     let names = JointNames::of(model);
     for name in &names.coordinates {
@@ -95,6 +226,9 @@ pub fn notation(model: &Model<'_>) -> Notation {
     }
     notation
 }
+
+/// Quantities that stand before others, by their exponents of kg, m and s: moments of inertia, masses, gravity.
+const RANKS: [[i64; 3]; 3] = [[1, 2, 0], [1, 0, 0], [0, 1, -2]];
 
 /// The letters that quantities begin with, by their exponents of kg, m and s, and what may follow as an index.
 const LETTERS: &[([i64; 3], &[(&str, &str)])] = &[
