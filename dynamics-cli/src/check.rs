@@ -69,12 +69,12 @@ fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
     text
 }
 
-fn counted(count: usize, one: &str, many: &str) -> String {
+pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
 }
 
 /// The joints of the file: that of a free base is not one of them.
-fn joints(spec: &RobotSpec, count: usize) -> String {
+pub(crate) fn joints(spec: &RobotSpec, count: usize) -> String {
     let is_welded = welded(&spec.joints);
     let of_file = spec.joints.iter().zip(is_welded);
     let of_file: Vec<_> = of_file.filter(|(joint, _)| matches!(joint.place, Place::Text { .. })).collect();
@@ -89,7 +89,7 @@ fn joints(spec: &RobotSpec, count: usize) -> String {
 }
 
 /// How it is in the world.
-fn base(robot: &Robot<'_>) -> String {
+pub(crate) fn base(robot: &Robot<'_>) -> String {
     let root = &robot.report.root;
     let of_root =
         robot.spec.joints.iter().find(|joint| joint.child.text == *root && joint.parent.text == "world");
@@ -102,7 +102,7 @@ fn base(robot: &Robot<'_>) -> String {
     }
 }
 
-fn freedom(robot: &Robot<'_>) -> String {
+pub(crate) fn freedom(robot: &Robot<'_>) -> String {
     let (n, driven) = (robot.dof(), robot.model.actuated.len());
     let mut text = counted(n, "degree of freedom", "degrees of freedom");
     if robot.tree.coordinates() != n {
@@ -116,7 +116,7 @@ fn freedom(robot: &Robot<'_>) -> String {
 }
 
 /// The mass, exactly.
-fn mass(robot: &Robot<'_>) -> String {
+pub(crate) fn mass(robot: &Robot<'_>) -> String {
     let tree = &robot.model.tree;
     let moving = tree.links.iter().filter_map(|link| link.inertia.mass.as_number());
     let moving = moving.fold(Number::ZERO, |sum, mass| sum + mass);
@@ -125,7 +125,7 @@ fn mass(robot: &Robot<'_>) -> String {
     format!("{} kg{at_rest}", plain(moving + base))
 }
 
-fn parameters(robot: &Robot<'_>) -> String {
+pub(crate) fn parameters(robot: &Robot<'_>) -> String {
     let compiled = &robot.compiled;
     match (compiled.base_parameter_names.len(), compiled.parameter_names.len()) {
         (_, 0) => "too large for a regressor".to_owned(),
@@ -135,9 +135,17 @@ fn parameters(robot: &Robot<'_>) -> String {
 
 /// The joints with coordinates, their entries of q, v and u, and their limits.
 fn of_joints(robot: &Robot<'_>) -> String {
-    let inputs = &robot.model.actuated;
-    // Where all have one entry of each, that of q is enough.
-    let is_plain = robot.tree.coordinates() == robot.dof() && inputs.len() == robot.dof();
+    table(if is_plain(robot) { "lllrrrr" } else { "lllllrrrr" }, &joint_rows(robot))
+}
+
+/// Whether all joints have one entry of q, v and u each: then that of q is enough.
+pub(crate) fn is_plain(robot: &Robot<'_>) -> bool {
+    robot.tree.coordinates() == robot.dof() && robot.model.actuated.len() == robot.dof()
+}
+
+/// The rows of the table of joints, and before them its head.
+pub(crate) fn joint_rows(robot: &Robot<'_>) -> Vec<Vec<String>> {
+    let (inputs, is_plain) = (&robot.model.actuated, is_plain(robot));
     let entries = if is_plain { vec![""] } else { vec!["", "", ""] };
     let head = [entries, vec!["joint", "kind", "lower", "upper", "velocity", "effort"]].concat();
     let mut rows: Vec<Vec<String>> = vec![head.into_iter().map(str::to_owned).collect()];
@@ -153,7 +161,7 @@ fn of_joints(robot: &Robot<'_>) -> String {
         row.extend(limits(info, joint.kind));
         rows.push(row);
     }
-    table(if is_plain { "lllrrrr" } else { "lllllrrrr" }, &rows)
+    rows
 }
 
 /// Lower, upper, velocity, effort: of a joint of several degrees of freedom there are none.
@@ -173,7 +181,7 @@ fn limits(info: &JointInfo, kind: JointKind) -> [String; 4] {
 }
 
 /// Joints that follow others, as `finger2 = -1·finger1 + 0.02`.
-fn followers(spec: &RobotSpec) -> String {
+pub(crate) fn followers(spec: &RobotSpec) -> String {
     let is_welded = welded(&spec.joints);
     let following = spec.joints.iter().zip(is_welded).filter(|(_, still)| !still);
     let line = |(joint, _): (&JointSpec, bool)| {
@@ -189,6 +197,12 @@ fn followers(spec: &RobotSpec) -> String {
 
 /// What acts in joints by itself.
 fn passive(robot: &Robot<'_>) -> String {
+    let rows = passive_rows(robot);
+    if rows.is_empty() { String::new() } else { table("lrrrr", &rows) }
+}
+
+/// The rows of the table of what acts in joints by itself, and before them its head; none if nothing does.
+pub(crate) fn passive_rows(robot: &Robot<'_>) -> Vec<Vec<String>> {
     let mut rows = vec![];
     for (link, info) in robot.tree.links.iter().zip(&robot.model.links).filter(|(_, info)| info.acts) {
         let Passive { armature, damping, friction, stiffness, .. } = link.passive;
@@ -207,11 +221,10 @@ fn passive(robot: &Robot<'_>) -> String {
         };
         rows.push([vec![info.joint.clone()], values.into_iter().zip(units).map(cell).collect()].concat());
     }
-    if rows.is_empty() {
-        return String::new();
+    if !rows.is_empty() {
+        rows.insert(0, ["joint", "armature", "damping", "friction", "stiffness"].map(str::to_owned).to_vec());
     }
-    rows.insert(0, ["joint", "armature", "damping", "friction", "stiffness"].map(str::to_owned).to_vec());
-    table("lrrrr", &rows)
+    rows
 }
 
 /// What is added to the energies, as `V + k / 2 * (r - r0)^2`.
@@ -247,25 +260,27 @@ fn checks(args: &Args, robot: &Robot<'_>) -> String {
     )
 }
 
-/// Notes in the order of the file.
+/// Notes under a title.
 fn listed(title: &str, notes: &[Note], input: &Input) -> String {
-    if notes.is_empty() {
-        return String::new();
-    }
-    let mut text = format!("\n{title}\n");
+    let lines: String = placed(notes, input).iter().map(|line| format!("  {line}\n")).collect();
+    if lines.is_empty() { lines } else { format!("\n{title}\n{lines}") }
+}
+
+/// Notes with their places, in the order of the file.
+pub(crate) fn placed(notes: &[Note], input: &Input) -> Vec<String> {
     let mut notes: Vec<&Note> = notes.iter().collect();
     notes.sort_by_key(|note| match note.place {
         Place::Text { line, column, .. } => (line, column),
         Place::Tokens { .. } => (0, 0),
     });
-    for note in notes {
+    let line = |note: &&Note| {
         let place = match &note.place {
             Place::Text { file, line, column } => format!("{file}:{line}:{column}: "),
             Place::Tokens { .. } => {
                 input.attributes.spot(&note.place).map_or(String::new(), |spot| format!("{}: ", spot.file))
             }
         };
-        text += &format!("  {place}{}\n", for_the_command_line(&note.text));
-    }
-    text
+        format!("{place}{}", for_the_command_line(&note.text))
+    };
+    notes.iter().map(line).collect()
 }

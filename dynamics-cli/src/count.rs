@@ -25,12 +25,10 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
     let robot = Robot::of(&input, &graph, Wanted::All)?;
-    let head =
-        ["method", "mul", "add", "div", "sqrt", "sin+cos", "instr", "chain", "form"].map(str::to_owned);
     let (of_robot, of_frames): (Vec<_>, Vec<_>) =
         robot.compiled.methods.iter().partition(|compiled| Method::OF_ROBOT.contains(&compiled.method));
     let row = |compiled: &&CompiledMethod<'_>| row(&robot, compiled);
-    let rows: Vec<_> = std::iter::once(head.to_vec())
+    let rows: Vec<_> = std::iter::once(HEAD.map(str::to_owned).to_vec())
         .chain(of_robot.iter().map(row))
         .chain(std::iter::once(vec![]))
         .chain(of_frames.iter().map(row))
@@ -38,7 +36,12 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     print(&table("lrrrrrrrl", &rows))
 }
 
-fn row(robot: &Robot<'_>, compiled: &CompiledMethod<'_>) -> Vec<String> {
+/// The columns of the table.
+pub(crate) const HEAD: [&str; 9] =
+    ["method", "mul", "add", "div", "sqrt", "sin+cos", "instr", "chain", "form"];
+
+/// What a method costs.
+pub(crate) fn row(robot: &Robot<'_>, compiled: &CompiledMethod<'_>) -> Vec<String> {
     let frame = compiled.method.frame().and_then(|k| robot.tree.frames.get(k));
     let frame = frame.map_or(String::new(), |frame| format!("::<{}>", frame.name));
     let cost = compiled.cost;

@@ -12,11 +12,13 @@ mod explain;
 mod failure;
 mod generate;
 mod input;
+mod linear;
 mod motion;
 mod output;
 mod picture;
 mod progress;
 mod render;
+mod report;
 mod robot;
 mod rollouts;
 mod simulate;
@@ -37,6 +39,7 @@ enum Command {
     Count(count::Args),
     Eval(eval::Args),
     Simulate(simulate::Args),
+    Report(report::Args),
     Rollouts(rollouts::Args),
     Explain(explain::Args),
 }
@@ -47,6 +50,7 @@ Examples:
   dynamics generate arm.urdf --lang rust --name Arm -o src/arm.rs
   dynamics eval arm.urdf --state '{\"q\": [0.1, 0.2], \"v\": [1, 0]}'
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
+  dynamics report arm.urdf -o arm.html
   dynamics rollouts arm.urdf --time 5 --step 1e-3 --vary 'q.elbow = uniform(-1, 1)' --count 1000 -o arm.parquet
   dynamics explain MassNegative
 
@@ -59,6 +63,7 @@ fn main() -> ExitCode {
         Command::Count(args) => count::run(&args),
         Command::Eval(args) => eval::run(&args),
         Command::Simulate(args) => simulate::run(&args),
+        Command::Report(args) => report::run(&args),
         Command::Rollouts(args) => rollouts::run(&args),
         Command::Explain(args) => explain::run(&args),
     };

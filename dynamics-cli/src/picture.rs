@@ -1,7 +1,7 @@
 //! What a simulation is drawn as: charts as SVG, and an animation as one HTML file.
 
-mod charts;
-mod scene;
+pub(crate) mod charts;
+pub(crate) mod scene;
 
 use std::path::{Path, PathBuf};
 
@@ -53,9 +53,9 @@ impl PictureArgs {
 
 /// A moment of the motion.
 pub(crate) struct Moment {
-    time: f64,
-    state: State,
-    energy: Energy<f64>,
+    pub(crate) time: f64,
+    pub(crate) state: State,
+    pub(crate) energy: Energy<f64>,
 }
 
 /// More moments than these are on no screen.
@@ -146,7 +146,7 @@ impl<'a, 'g> Recording<'a, 'g> {
 }
 
 /// As many moments as an animation has frames: the nearest ones after equal times, and the last.
-fn thinned(moments: &[Moment]) -> Vec<&Moment> {
+pub(crate) fn thinned(moments: &[Moment]) -> Vec<&Moment> {
     let end = moments.last().map_or(0.0, |last| last.time);
     let between = f64::max(1.0 / RATE, end / FRAMES);
     let mut next = 0.0;
@@ -162,11 +162,11 @@ fn thinned(moments: &[Moment]) -> Vec<&Moment> {
 }
 
 /// What the file calls its robot.
-fn robot_name(robot: &Robot<'_>) -> String {
+pub(crate) fn robot_name(robot: &Robot<'_>) -> String {
     robot.report.robot.as_deref().filter(|name| !name.is_empty()).unwrap_or("robot").to_owned()
 }
 
 /// What cannot be drawn.
-fn undrawn(error: dynamics_view::Error) -> Failure {
+pub(crate) fn undrawn(error: dynamics_view::Error) -> Failure {
     Problem::new(error.to_string()).into()
 }

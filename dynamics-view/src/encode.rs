@@ -28,6 +28,23 @@ pub(crate) fn quantum(size: f64) -> f64 {
     if size > 1e-90 { 10_f64.powf((size / 2e4).log10().floor()) * 2.0 } else { 1.0 }
 }
 
+/// A row of numbers with a quantum of its own.
+pub(crate) fn numbers(values: &[f64]) -> Value {
+    let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
+    let quantum = quantum(size) / if values.len() > 2000 { 10.0 } else { 1.0 };
+    json!({ "unit": quantum, "row": row(values.iter().copied(), quantum) })
+}
+
+/// A row of numbers from their smallest on: what is a constant but for rounding needs no more digits than others.
+pub(crate) fn varying(values: &[f64]) -> [(&'static str, Value); 3] {
+    let low = values.iter().copied().fold(f64::INFINITY, f64::min);
+    let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let size = (high - low).max(1e-6 * high.abs().max(low.abs()));
+    let quantum = quantum(size);
+    let row = row(values.iter().map(|value| value - low), quantum);
+    [("from", json!(low)), ("unit", json!(quantum)), ("row", row)]
+}
+
 /// A number with four digits.
 pub(crate) fn short(value: f64) -> Value {
     let text = format!("{value:.3e}");

@@ -38,6 +38,11 @@ pub enum Error {
         /// The body.
         body: String,
     },
+    /// A link is on none that comes before it, or a body on one that there is not.
+    LinkUnconnected {
+        /// The index of the link.
+        link: usize,
+    },
     /// No body has this name.
     BodyUnknown {
         /// The name.
@@ -59,6 +64,7 @@ impl fmt::Display for Error {
                 write!(f, "the time at index {index} is not after the one before it")
             }
             Self::BodyUnconnected { body } => write!(f, "nothing joins the body `{body}` to the world"),
+            Self::LinkUnconnected { link } => write!(f, "link {link} hangs on none that comes before it"),
             Self::BodyUnknown { name } => write!(f, "there is no body `{name}`"),
         }
     }

@@ -7,7 +7,7 @@ use crate::svg::Page;
 use crate::text::{SIZE, shortened, width};
 use crate::{lines, phase, poles, style};
 
-/// The width of the page, and the widest names beside it, in pixels.
+/// The usual width of the page, and the widest names beside it, in pixels.
 const WIDTH: f64 = 720.0;
 const WIDEST_NAME: f64 = 170.0;
 /// Around everything; of a chart's heading; of ticks with the axis' name; between charts.
@@ -35,6 +35,7 @@ pub(crate) const ROW: f64 = 14.0;
 pub struct Figure {
     title: String,
     charts: Vec<Chart>,
+    width: f64,
 }
 
 /// Where a chart is on the page: the rectangle of its axes, and what is on them.
@@ -63,10 +64,10 @@ impl Frame {
 }
 
 impl Figure {
-    /// An empty page with a title.
+    /// An empty page with a title, or without one.
     #[must_use]
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), charts: vec![] }
+        Self { title: title.to_owned(), charts: vec![], width: WIDTH }
     }
 
     /// With a chart below those before it.
@@ -83,6 +84,13 @@ impl Figure {
         self
     }
 
+    /// On a page of this width, in pixels; without it, of 720.
+    #[must_use]
+    pub fn wide(mut self, width: f64) -> Self {
+        self.width = width;
+        self
+    }
+
     /// The charts.
     #[must_use]
     pub fn charts(&self) -> &[Chart] {
@@ -96,18 +104,32 @@ impl Figure {
     /// [`Error::Empty`], [`Error::LengthsDiffer`], [`Error::NotDrawable`] and [`Error::TimesNotIncreasing`], of the
     /// first chart that cannot be drawn.
     pub fn svg(&self) -> Result<String, Error> {
+        let (page, size) = self.drawn()?;
+        Ok(page.document(size, &self.title, &(style::PALETTE.to_owned() + style::CHART)))
+    }
+
+    /// The same as a part of HTML, which has the style; `title` is for those who do not see it.
+    pub(crate) fn fragment(&self, title: &str) -> Result<String, Error> {
+        let (page, size) = self.drawn()?;
+        Ok(page.fragment(size, title))
+    }
+
+    fn drawn(&self) -> Result<(Page, [f64; 2]), Error> {
         if self.charts.is_empty() {
             return Err(Error::Empty { what: format!("the figure `{}`", self.title) });
         }
         self.charts.iter().try_for_each(Chart::check)?;
         let left = self.charts.iter().map(tick_width).fold(0.0, f64::max) + EDGE + 8.0;
         let names = self.charts.iter().map(name_width).fold(0.0, f64::max);
-        let right = WIDTH - if names > 0.0 { names + lines::LEADER + EDGE } else { EDGE + 8.0 };
+        let right = self.width - if names > 0.0 { names + lines::LEADER + EDGE } else { EDGE + 8.0 };
 
         let mut page = Page::default();
-        let mut top = EDGE + 15.0;
-        page.text([EDGE, top], "h", &shortened(&self.title, 15.0, WIDTH - 2.0 * EDGE));
-        top += 12.0;
+        let mut top = 4.0;
+        if !self.title.is_empty() {
+            top = EDGE + 15.0;
+            page.text([EDGE, top], "h", &shortened(&self.title, 15.0, self.width - 2.0 * EDGE));
+            top += 12.0;
+        }
         for (k, chart) in self.charts.iter().enumerate() {
             let next = self.charts.get(k + 1);
             let has_foot = next.is_none_or(|next| !shares_time(chart, next));
@@ -125,7 +147,7 @@ impl Figure {
             }
             top += height + if has_foot { FOOT } else { 0.0 } + if next.is_some() { GAP } else { 0.0 };
         }
-        Ok(page.document([WIDTH, top + 8.0], &self.title, &(style::PALETTE.to_owned() + style::CHART)))
+        Ok((page, [self.width, top + 8.0]))
     }
 }
 

@@ -1,14 +1,13 @@
 //! An animation: the poses of a scene over time, in one HTML file.
 
-use std::collections::BTreeMap;
-
 use dynamics_core::Pose;
 use serde_json::{Value, json};
 
-use crate::chart::{Chart, Kind, check_times};
-use crate::encode::{quantum, row, short};
+use crate::chart::{Chart, check_times};
+use crate::embed::{embedded, filled, lines, script, written};
+use crate::encode::{numbers, quantum, row};
 use crate::error::{Error, check_length, check_numbers};
-use crate::scene::{Body, Motion, Scene};
+use crate::scene::{Body, Scene};
 use crate::{style, svg};
 
 /// Quaternions are rounded to this.
@@ -17,13 +16,10 @@ const TURN: f64 = 1e-5;
 const STILL: f64 = 1e-9;
 
 const PAGE: &str = include_str!("../viewer/page.html");
-const STYLE: &str = include_str!("../viewer/style.css");
-const SCRIPT: [&str; 4] = [
-    include_str!("../viewer/data.js"),
-    include_str!("../viewer/view.js"),
-    include_str!("../viewer/charts.js"),
-    include_str!("../viewer/main.js"),
-];
+const STYLE: [&str; 3] =
+    [style::PALETTE, include_str!("../viewer/stage.css"), include_str!("../viewer/style.css")];
+/// What the script has that is of films alone; the rest is shared with pages.
+const OF_FILMS: [&str; 2] = [include_str!("../viewer/film.js"), include_str!("../viewer/main.js")];
 
 /// A scene that moves: poses of all its bodies, frame by frame, and charts beside them. Same input, same bytes.
 ///
@@ -99,13 +95,11 @@ impl Film {
     /// of [`Figure::svg`](crate::Figure::svg) for the charts.
     pub fn html(&self) -> Result<String, Error> {
         self.check()?;
-        // In a script nothing ends the data but its own end: no tag begins in it.
-        let data = self.data()?.to_string().replace('<', "\\u003c").replace('\u{2028}', "\\u2028");
         let parts = [
             ("{title}", svg::escaped(&self.scene.name)),
-            ("{style}", format!("{}{}", style::PALETTE, STYLE)),
-            ("{script}", SCRIPT.concat()),
-            ("{data}", data),
+            ("{style}", STYLE.concat()),
+            ("{script}", script(OF_FILMS)),
+            ("{data}", embedded(&self.data()?)),
         ];
         Ok(filled(PAGE, &parts))
     }
@@ -116,19 +110,8 @@ impl Film {
             return Err(Error::Empty { what: format!("the animation of `{name}`") });
         }
         check_times(&self.times)?;
-        self.order()?;
-        for body in bodies {
-            let inertia = body.inertia.as_flattened();
-            check_numbers(&format!("the mass of `{}`", body.name), [body.mass])?;
-            check_numbers(&format!("the centre of mass of `{}`", body.name), body.com)?;
-            check_numbers(&format!("the inertia of `{}`", body.name), inertia.iter().copied())?;
-            for motion in &body.joint.motions {
-                let (Motion::Turn { along, .. } | Motion::Slide { along }) = motion;
-                let through = if let Motion::Turn { through, .. } = motion { *through } else { [0.0; 3] };
-                let numbers = along.iter().chain(&through).copied();
-                check_numbers(&format!("the joint of `{}`", body.name), numbers)?;
-            }
-        }
+        self.scene.order()?;
+        bodies.iter().try_for_each(Body::check)?;
         for (poses, time) in self.poses.iter().zip(&self.times) {
             check_length(&format!("the frame at {time} s"), bodies.len(), poses.len())?;
             for (pose, body) in poses.iter().zip(bodies) {
@@ -139,30 +122,8 @@ impl Film {
         self.charts.iter().try_for_each(Chart::check)
     }
 
-    /// The bodies, those that carry others before these; in their own order as far as that goes.
-    fn order(&self) -> Result<Vec<usize>, Error> {
-        let bodies = &self.scene.bodies;
-        let mut order: Vec<usize> = vec![];
-        let mut is_in = vec![false; bodies.len()];
-        while order.len() < bodies.len() {
-            let before = order.len();
-            for (k, body) in bodies.iter().enumerate() {
-                let is_carried = body.parent.is_none_or(|parent| is_in.get(parent) == Some(&true));
-                if !is_in[k] && is_carried {
-                    is_in[k] = true;
-                    order.push(k);
-                }
-            }
-            if order.len() == before {
-                let lost = is_in.iter().position(|is_in| !is_in).unwrap_or(0);
-                return Err(Error::BodyUnconnected { body: bodies[lost].name.clone() });
-            }
-        }
-        Ok(order)
-    }
-
     fn data(&self) -> Result<Value, Error> {
-        let order = self.order()?;
+        let order = self.scene.order()?;
         let place = |body: usize| order.iter().position(|k| *k == body);
         let size = self.poses.iter().flatten().flat_map(|pose| pose.translation.iter().map(|x| x.abs()));
         let unit = quantum(size.fold(0.0, f64::max)).min(1e-3);
@@ -176,11 +137,11 @@ impl Film {
                 json!(place(at.ok_or_else(|| Error::BodyUnknown { name: name.clone() })?))
             }
         };
-        let charts: Vec<Value> = self.charts.iter().filter_map(|chart| self.chart(chart)).collect();
+        let charts: Vec<Value> = self.charts.iter().filter_map(|chart| lines(chart, &self.times)).collect();
         Ok(json!({
             "name": self.scene.name,
             "count": self.times.len(),
-            "time": self.numbers(&self.times),
+            "time": numbers(&self.times),
             "unit": unit,
             "turn": TURN,
             "bodies": bodies,
@@ -189,35 +150,15 @@ impl Film {
         }))
     }
 
-    /// A row of numbers with a quantum of its own.
-    fn numbers(&self, values: &[f64]) -> Value {
-        let size = values.iter().fold(0.0, |size: f64, value| size.max(value.abs()));
-        let quantum = quantum(size) / if values.len() > 2000 { 10.0 } else { 1.0 };
-        json!({ "unit": quantum, "row": row(values.iter().copied(), quantum) })
-    }
-
     fn body(&self, k: usize, parent: Option<usize>, unit: f64) -> Value {
         let body = &self.scene.bodies[k];
         let places = self.places(k);
         let of =
             |entry: usize| row(places.iter().map(|place| place[entry]), if entry < 3 { unit } else { TURN });
-        let motions: Vec<Value> = body.joint.motions.iter().map(motion).collect();
-        let mut written = BTreeMap::from([
-            ("name", json!(body.name)),
-            ("parent", json!(parent)),
-            ("place", json!((0..7).map(of).collect::<Vec<_>>())),
-        ]);
-        if !body.joint.kind.is_empty() {
-            written.insert("joint", json!(body.joint.name));
-            written.insert("kind", json!(body.joint.kind));
-            written.insert("motions", json!(motions));
-        }
-        if body.mass > 0.0 {
-            written.insert("mass", short(body.mass));
-            written.insert("com", json!(body.com.map(short)));
-            written.extend(body.ellipsoid().map(|squares| ("ellipsoid", json!(squares.map(short)))));
-        }
-        json!(written)
+        let mut entries = written(body);
+        entries.insert("parent", json!(parent));
+        entries.insert("place", json!((0..7).map(of).collect::<Vec<_>>()));
+        json!(entries)
     }
 
     /// Positions and quaternions of a body in the frame of the one that carries it, over all frames.
@@ -243,33 +184,6 @@ impl Film {
         }
         places
     }
-
-    fn chart(&self, chart: &Chart) -> Option<Value> {
-        let Kind::OverTime { times, lines } = &chart.kind else { return None };
-        let own = (*times != self.times).then(|| self.numbers(times));
-        let lines = lines.iter().map(|line| {
-            let low = line.values.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = line.values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            // What is a constant but for rounding needs no more digits than others.
-            let size = (high - low).max(1e-6 * high.abs().max(low.abs()));
-            let quantum = quantum(size);
-            let row = row(line.values.iter().map(|value| value - low), quantum);
-            json!({ "name": line.name, "from": low, "unit": quantum, "row": row })
-        });
-        let lines: Vec<Value> = lines.collect();
-        Some(
-            json!({ "quantity": chart.quantity, "unit": chart.unit, "time": own, "count": times.len(), "lines": lines }),
-        )
-    }
-}
-
-fn motion(motion: &Motion) -> Value {
-    match motion {
-        Motion::Turn { through, along } => {
-            json!({ "through": through.map(short), "along": along.map(short) })
-        }
-        Motion::Slide { along } => json!({ "along": along.map(short) }),
-    }
 }
 
 /// The quaternion i, j, k, w of a rotation, by S. Shepperd's method (1978): it divides by the largest entry.
@@ -292,20 +206,6 @@ fn quaternion(r: impl Fn(usize, usize) -> f64) -> [f64; 4] {
     if norm > 0.0 { turn.map(|x| x / norm) } else { [0.0, 0.0, 0.0, 1.0] }
 }
 
-/// A page with its parts put in, from left to right: what is put in is not looked at again.
-fn filled(page: &str, parts: &[(&str, String)]) -> String {
-    let mut text = String::new();
-    let mut rest = page;
-    while let Some((at, (mark, part))) =
-        parts.iter().filter_map(|part| Some((rest.find(part.0)?, part))).min_by_key(|(at, _)| *at)
-    {
-        text += &rest[..at];
-        text += part;
-        rest = &rest[at + mark.len()..];
-    }
-    text + rest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -319,11 +219,5 @@ mod tests {
         let expected = [0.0, 0.0, 0.15_f64.sin(), 0.15_f64.cos()];
         assert!(found.iter().zip(expected).all(|(x, y)| (x - y).abs() < 1e-15), "{found:?}");
         assert_eq!(quaternion(|i, j| half[i][j]), [0.0, 1.0, 0.0, 0.0]);
-    }
-
-    #[test]
-    fn what_is_put_in_stays_as_it_is() {
-        let parts = [("{a}", "{b}".to_owned()), ("{b}", "x".to_owned())];
-        assert_eq!(filled("<{a}|{b}|{c}>", &parts), "<{b}|x|{c}>");
     }
 }

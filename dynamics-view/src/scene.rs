@@ -2,6 +2,8 @@
 
 use dynamics_core::Pose;
 
+use crate::error::{Error, check_numbers};
+
 /// A robot to be drawn.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
@@ -122,7 +124,46 @@ fn norm(x: [f64; 3]) -> f64 {
     x.iter().fold(0.0, |norm: f64, x| norm.hypot(*x))
 }
 
+impl Scene {
+    /// The bodies, those that carry others before these; in their own order as far as that goes.
+    pub(crate) fn order(&self) -> Result<Vec<usize>, Error> {
+        let bodies = &self.bodies;
+        let mut order: Vec<usize> = vec![];
+        let mut is_in = vec![false; bodies.len()];
+        while order.len() < bodies.len() {
+            let before = order.len();
+            for (k, body) in bodies.iter().enumerate() {
+                let is_carried = body.parent.is_none_or(|parent| is_in.get(parent) == Some(&true));
+                if !is_in[k] && is_carried {
+                    is_in[k] = true;
+                    order.push(k);
+                }
+            }
+            if order.len() == before {
+                let lost = is_in.iter().position(|is_in| !is_in).unwrap_or(0);
+                return Err(Error::BodyUnconnected { body: bodies[lost].name.clone() });
+            }
+        }
+        Ok(order)
+    }
+}
+
 impl Body {
+    /// Whether its numbers can be drawn.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        check_numbers(&format!("the mass of `{}`", self.name), [self.mass])?;
+        check_numbers(&format!("the centre of mass of `{}`", self.name), self.com)?;
+        let inertia = self.inertia.as_flattened();
+        check_numbers(&format!("the inertia of `{}`", self.name), inertia.iter().copied())?;
+        for motion in &self.joint.motions {
+            let (Motion::Turn { along, .. } | Motion::Slide { along }) = motion;
+            let through = if let Motion::Turn { through, .. } = motion { *through } else { [0.0; 3] };
+            let numbers = along.iter().chain(&through).copied();
+            check_numbers(&format!("the joint of `{}`", self.name), numbers)?;
+        }
+        Ok(())
+    }
+
     /// What is drawn of the mass: `5/m·∫x·xᵀdm` about the centre, the square of the ellipsoid of even density that has
     /// the same mass and inertia; xx, yy, zz, xy, xz, yz in m².
     pub(crate) fn ellipsoid(&self) -> Option<[f64; 6]> {

@@ -75,6 +75,18 @@ impl Page {
             self.0
         )
     }
+
+    /// The same within HTML, as wide as there is room.
+    pub(crate) fn fragment(&self, [width, height]: [f64; 2], title: &str) -> String {
+        let (w, h) = (px(width), px(height));
+        format!(
+            r#"<svg width="{w}" height="{h}" viewBox="0 0 {w} {h}" role="img">
+<title>{}</title>
+{}</svg>"#,
+            escaped(title),
+            self.0
+        )
+    }
 }
 
 fn class(classes: &str) -> String {

@@ -13,6 +13,11 @@ function niceTicks(low, high, wanted) {
 const superscript = (n) => String(n).replace(/./g, (c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]));
 const minus = (text) => (/^-0\.?0*$/.test(text) ? text.slice(1) : text.replace("-", "−"));
 
+for (const chart of data.charts) {
+  chart.times = chart.time ? decoded(chart.time.row, chart.count, chart.time.unit) : times;
+  for (const line of chart.lines) line.values = decoded(line.row, chart.count, line.unit, line.from);
+}
+
 const plots = data.charts.map((chart) => {
   const figure = document.createElement("figure");
   figure.innerHTML = "<figcaption></figcaption><div class=legend></div><canvas></canvas>";

@@ -13,16 +13,6 @@ function decoded(row, count, unit, from = 0) {
   return out;
 }
 
-const times = decoded(data.time.row, data.count, data.time.unit);
-const START = times[0], END = times[data.count - 1];
-for (const body of data.bodies) {
-  body.place = body.place.map((row, k) => decoded(row, data.count, k < 3 ? data.unit : data.turn));
-}
-for (const chart of data.charts) {
-  chart.times = chart.time ? decoded(chart.time.row, chart.count, chart.time.unit) : times;
-  for (const line of chart.lines) line.values = decoded(line.row, chart.count, line.unit, line.from);
-}
-
 // The last index whose time is not after t.
 function before(list, t) {
   let low = 0, high = list.length - 1;
@@ -61,17 +51,8 @@ function rotation(i, j, k, w) {
   ];
 }
 
-// The poses of all bodies at a time: between frames positions and quaternions go the straight way.
-function posesAt(t) {
-  const k = before(times, t), next = Math.min(k + 1, data.count - 1);
-  const part = next > k ? Math.min(1, Math.max(0, (t - times[k]) / (times[next] - times[k]))) : 0;
-  const poses = [];
-  for (const body of data.bodies) {
-    const [x, y, z, i, j, l, w] = body.place.map((row) => row[k] + part * (row[next] - row[k]));
-    const parent = body.parent === null ? WORLD : poses[body.parent];
-    const r = rotation(i, j, l, w);
-    const columns = [0, 1, 2].map((c) => turned(parent.r, [r[0][c], r[1][c], r[2][c]]));
-    poses.push({ p: at(parent, [x, y, z]), r: [0, 1, 2].map((c) => columns.map((column) => column[c])) });
-  }
-  return poses;
+// A pose seen from where another one is.
+function composed(a, b) {
+  const columns = [0, 1, 2].map((c) => turned(a.r, b.r.map((row) => row[c])));
+  return { p: at(a, b.p), r: [0, 1, 2].map((c) => columns.map((column) => column[c])) };
 }

@@ -1,6 +1,11 @@
 // The robot, drawn from back to front.
-const canvas = document.getElementById("view");
-const pen = canvas.getContext("2d");
+let canvas = document.getElementById("view");
+let pen = canvas.getContext("2d");
+// Which canvas is drawn on, where there are several.
+function aim(at) {
+  canvas = at;
+  pen = at.getContext("2d");
+}
 const shown = { masses: true, inertias: false, axes: false, trace: data.trace !== null, follow: false };
 const FIELD = Math.tan((32 / 2) * (Math.PI / 180));
 let colours = {};
@@ -34,9 +39,9 @@ function jointColour(body) {
 const children = data.bodies.map((_, k) => data.bodies.filter((body) => body.parent === k));
 const extent = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity], robot: 0, points: [], near: [] };
 (() => {
-  const step = Math.max(1, Math.floor(data.count / 200));
-  for (let k = 0; k < data.count + step - 1; k += step) {
-    const poses = posesAt(times[Math.min(k, data.count - 1)]);
+  const step = Math.max(1, Math.floor(data.count / 200)), seen = [...otherPoses];
+  for (let k = 0; k < data.count + step - 1; k += step) seen.push(posesAt(times[Math.min(k, data.count - 1)]));
+  for (const poses of seen) {
     const points = poses.map((pose) => pose.p);
     data.bodies.forEach((body, b) => { if (body.mass) points.push(at(poses[b], body.com)); });
     const low = [0, 1, 2].map((c) => Math.min(...points.map((p) => p[c])));
@@ -277,9 +282,10 @@ function drawEllipsoid(pose, body, colour) {
   pen.stroke();
 }
 
+// The path: what has been gone by a time, and what is to come; all of it, at no time.
 function drawPath(t) {
   const points = tracePoints();
-  const now = before(times, t);
+  const now = t === null ? 0 : before(times, t);
   const stroke = (from, to, alpha, last) => {
     pen.beginPath();
     for (let k = from; k < to; k++) segment(points[k], points[k + 1]);
@@ -290,12 +296,12 @@ function drawPath(t) {
     pen.stroke();
   };
   stroke(now, points.length - 1, 0.28);
-  stroke(0, now, 0.95, posesAt(t)[data.trace].p);
+  if (t !== null) stroke(0, now, 0.95, posesAt(t)[data.trace].p);
 }
-let traced = null;
+let traced = {};
 function tracePoints() {
-  traced = traced || Array.from(times, (t) => posesAt(t)[data.trace].p);
-  return traced;
+  if (traced.body !== data.trace) traced = { body: data.trace, points: Array.from(times, (t) => posesAt(t)[data.trace].p) };
+  return traced.points;
 }
 
 // What a body is drawn as: lines from its origin to those whom it carries, or to its centre of mass.
@@ -307,8 +313,8 @@ function boneEnds(k, poses) {
   return ends.filter(far);
 }
 
-function drawScene(t) {
-  const poses = posesAt(t);
+// The robot in its poses; with the path of a body as far as it has come by a time, or all of it at none.
+function drawScene(poses, t) {
   look(poses);
   pen.clearRect(0, 0, eye.w, eye.h);
   drawGround();

@@ -1,22 +1,19 @@
 //! The charts of a simulation: what is asked for, and what is on them.
 
 use dynamics_codegen::diagnostics::did_you_mean;
-use dynamics_codegen::mechanics::equations::Method;
-use dynamics_codegen::model::Motion;
 use dynamics_codegen::spec::JointKind;
-use dynamics_core::__private::{ball_tangent_rate, free_tangent_rate};
 use dynamics_core::Energy;
-use dynamics_core::nalgebra::{DMatrix, Schur};
 use dynamics_view::{Chart, Coordinate, Coordinates, Loose, Measure, Plane};
 
 use super::Moment;
 use crate::failure::{Failure, Problem};
 use crate::input::shown;
+use crate::linear;
 use crate::robot::Robot;
 
 /// What a chart may be of.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Wish {
+pub(crate) enum Wish {
     /// All coordinates.
     Angles,
     /// All speeds.
@@ -45,7 +42,7 @@ pub(super) fn wish(text: &str) -> Result<Wish, String> {
 }
 
 /// What is drawn of the coordinates of a robot.
-fn parts(robot: &Robot<'_>) -> Coordinates {
+pub(crate) fn parts(robot: &Robot<'_>) -> Coordinates {
     let mut parts = Coordinates::default();
     let own = robot.spec.joints.iter().filter(|joint| joint.has_coordinates());
     for (joint, kind) in robot.model.joints.iter().zip(own.map(|joint| joint.kind)) {
@@ -100,7 +97,7 @@ pub(super) fn of(wish: &Wish, robot: &Robot<'_>, moments: &[Moment]) -> Result<V
 }
 
 /// Those over time; none of a phase portrait or of poles.
-pub(super) fn over_time(wish: &Wish, robot: &Robot<'_>, moments: &[&Moment]) -> Vec<Chart> {
+pub(crate) fn over_time(wish: &Wish, robot: &Robot<'_>, moments: &[&Moment]) -> Vec<Chart> {
     let times: Vec<f64> = moments.iter().map(|moment| moment.time).collect();
     let (q, v) = states(moments);
     match wish {
@@ -119,47 +116,14 @@ fn states<'a>(moments: &[&'a Moment]) -> (Vec<&'a [f64]>, Vec<&'a [f64]>) {
     moments.iter().map(|moment| (&*moment.state.q, &*moment.state.v)).unzip()
 }
 
-/// The eigenvalues of `A = [0 1; ∂a/∂q ∂a/∂v]` at the start, as `linearize` has it.
+/// The poles of the linear model at the start.
 fn poles(robot: &Robot<'_>, moments: &[Moment]) -> Result<Chart, Failure> {
-    let (Some(start), n) = (moments.first(), robot.dof()) else { return Ok(Chart::poles(Plane::Continuous)) };
-    let entries = robot.evaluate(Method::ForwardDynamicsDerivatives, &start.state)?;
-    let mut a = DMatrix::<f64>::zeros(2 * n, 2 * n);
-    for i in 0..n {
-        a[(i, n + i)] = 1.0;
-        for j in 0..n {
-            a[(n + i, j)] = entries[i * n + j];
-            a[(n + i, n + j)] = entries[(n + i) * n + j];
-        }
-    }
-    let mut put = |from: usize, rows: &[&[f64]]| {
-        for (i, row) in rows.iter().enumerate() {
-            for (j, entry) in row.iter().enumerate() {
-                a[(from + i, from + j)] = *entry;
-            }
-        }
-    };
-    let v = &start.state.v;
-    for link in &robot.tree.links {
-        let from = link.drive.v;
-        match link.motion {
-            Motion::Revolute | Motion::Prismatic => {}
-            Motion::Ball => {
-                let rate = ball_tangent_rate::<f64>(std::array::from_fn(|k| v[from + k]));
-                put(from, &rate.each_ref().map(|row| &row[..]));
-            }
-            Motion::Free => {
-                let rate = free_tangent_rate::<f64>(std::array::from_fn(|k| v[from + k]));
-                put(from, &rate.each_ref().map(|row| &row[..]));
-            }
-        }
-    }
-    const ROUNDS: usize = 10_000;
-    let schur = Schur::try_new(a, f64::EPSILON, ROUNDS).ok_or_else(|| {
+    let Some(start) = moments.first() else { return Ok(Chart::poles(Plane::Continuous)) };
+    let found = linear::eigenvalues(linear::state_matrix(robot, &start.state)?).ok_or_else(|| {
         let problem = Problem::new("the poles at the start cannot be found");
         Failure::from(problem.help("leave `poles` out of `--plot-of`"))
     })?;
-    let found = schur.complex_eigenvalues();
-    Ok(Chart::poles(Plane::Continuous).set("at the start", found.iter().map(|pole| [pole.re, pole.im])))
+    Ok(Chart::poles(Plane::Continuous).set("at the start", found))
 }
 
 #[cfg(test)]

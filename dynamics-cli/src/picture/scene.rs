@@ -27,7 +27,7 @@ pub(super) fn check(name: &str, robot: &Robot<'_>) -> Result<(), Failure> {
 }
 
 /// The bodies, with the joints that carry them and their masses.
-pub(super) fn of(robot: &Robot<'_>, name: String) -> Scene {
+pub(crate) fn of(robot: &Robot<'_>, name: String) -> Scene {
     let neutral = State::neutral(robot).q;
     let oracle = Oracle::new(&robot.tree);
     let poses = poses(robot, &neutral);
@@ -57,7 +57,7 @@ pub(super) fn of(robot: &Robot<'_>, name: String) -> Scene {
 }
 
 /// The poses of all bodies.
-pub(super) fn poses(robot: &Robot<'_>, q: &[f64]) -> Vec<Pose<f64>> {
+pub(crate) fn poses(robot: &Robot<'_>, q: &[f64]) -> Vec<Pose<f64>> {
     let oracle = Oracle::new(&robot.tree);
     let pose = |frame| {
         let spatial::Pose { rotation, translation } = oracle.pose(frame, q);

@@ -7,6 +7,8 @@ use super::{Form, Notation};
 /// The invisible operators: a product, and the application of a function.
 const TIMES: &str = "<mo>&#x2062;</mo>";
 const APPLY: &str = "<mo>&#x2061;</mo>";
+/// What a printer leaves beside the name of a function; browsers leave nothing.
+const THIN: &str = "<mspace width=\"0.17em\"/>";
 
 impl Form {
     /// The form as one `<mrow>` of MathML; [`math`] makes it an element that stands in a page.
@@ -64,6 +66,9 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             for (k, factor) in factors.iter().enumerate() {
                 if k > 0 {
                     text.push_str(TIMES);
+                    if is_function(factor) || is_function(&factors[k - 1]) {
+                        text.push_str(THIN);
+                    }
                 }
                 write(factor, Bond::Factor, notation, text);
             }
@@ -93,6 +98,15 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
     }
 }
 
+/// Whether it is written with the name of a function before it.
+fn is_function(form: &Form) -> bool {
+    match form {
+        Form::Sin(_) | Form::Cos(_) => true,
+        Form::Power(base, _) => is_function(base),
+        _ => false,
+    }
+}
+
 fn parenthesised(form: &Form, notation: &Notation, text: &mut String) {
     text.push_str("<mrow><mo>(</mo>");
     write(form, Bond::Sum, notation, text);
@@ -106,6 +120,7 @@ fn function(name: &str, power: Option<u32>, argument: &Form, notation: &Notation
     }
     text.push_str(APPLY);
     if argument.is_plain_argument() {
+        text.push_str(THIN);
         write(argument, Bond::Sum, notation, text);
     } else {
         parenthesised(argument, notation, text);

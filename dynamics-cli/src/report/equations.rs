@@ -1,0 +1,240 @@
+//! The equations, in closed form, as far as a page has room for them.
+
+use std::collections::BTreeMap;
+
+use dynamics_codegen::closed::{Form, Matrix, Notation};
+use dynamics_codegen::symbolic::{Number, SymbolId};
+use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
+use dynamics_codegen::mechanics::equations::Argument;
+use dynamics_view::page::{Equation, Section, Table};
+
+use super::Subject;
+
+/// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
+const LARGEST: usize = 12;
+/// Equations of more bytes are left out of the page.
+const LONGEST: usize = 400_000;
+/// Matrices of more letters in a row are written entry by entry.
+const WIDEST: usize = 100;
+/// Numbers of a file have so many digits in equations: of 1/30 nobody reads eighteen.
+const DIGITS: usize = 6;
+
+pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
+    let section = Section::new("equations", "Equations of motion").text(
+        "The joints move by M(q)·a + C(q,v)·v + G(q) + passive = τ, where v = q̇ and a = v̇ (of ball and free joints v is \
+         the twist of the body in its own axes), and passive are the forces of dampers, friction and springs.",
+    );
+    let section = section.table(symbols(subject));
+    if subject.robot.dof() > LARGEST {
+        return section.text(&too_large(subject));
+    }
+    let Ok(forms) = closed_forms(&subject.robot.model, subject.graph) else {
+        return section.text(&too_large(subject));
+    };
+    let equations = written(&rounded(forms));
+    if equations.iter().map(|equation| equation.mathml.len()).sum::<usize>() > LONGEST {
+        return section.text(&too_large(subject));
+    }
+    let remark = format!("Numbers are rounded to {DIGITS} digits; the code that is generated has all of them.");
+    equations.into_iter().fold(section, Section::equation).remark(&remark)
+}
+
+/// With numbers that people can read.
+fn rounded(forms: ClosedForms) -> ClosedForms {
+    let of = |matrix: &Matrix| matrix.map(|entry| short(entry));
+    ClosedForms {
+        definitions: forms.definitions.iter().map(|(symbol, form)| (*symbol, short(form))).collect(),
+        mass_matrix: of(&forms.mass_matrix),
+        coriolis_matrix: of(&forms.coriolis_matrix),
+        gravity_forces: of(&forms.gravity_forces),
+        kinetic_energy: short(&forms.kinetic_energy),
+        potential_energy: short(&forms.potential_energy),
+        lagrangian: short(&forms.lagrangian),
+        notation: forms.notation,
+    }
+}
+
+/// The form with its numbers rounded; small fractions stay as they are.
+fn short(form: &Form) -> Form {
+    let all = |parts: &[Form]| parts.iter().map(short).collect();
+    let one = |part: &Form| Box::new(short(part));
+    match form {
+        Form::Number(value) => Form::Number(short_number(*value)),
+        Form::Symbol(symbol) => Form::Symbol(*symbol),
+        Form::Negative(inner) => Form::Negative(one(inner)),
+        Form::Sum(terms) => Form::Sum(all(terms)),
+        Form::Product(factors) => Form::Product(all(factors)),
+        Form::Quotient(above, below) => Form::Quotient(one(above), one(below)),
+        Form::Power(base, exponent) => Form::Power(one(base), *exponent),
+        Form::Sin(inner) => Form::Sin(one(inner)),
+        Form::Cos(inner) => Form::Cos(one(inner)),
+        Form::Root(inner) => Form::Root(one(inner)),
+    }
+}
+
+fn short_number(value: Number) -> Number {
+    let is_short = value.exact_text().chars().filter(char::is_ascii_digit).count() <= DIGITS;
+    let rounded = Number::parse_decimal(&format!("{:.*e}", DIGITS - 1, value.to_f64()));
+    match rounded {
+        Some(rounded) if !is_short => rounded,
+        _ => value,
+    }
+}
+
+fn too_large(subject: &Subject<'_, '_>) -> String {
+    format!(
+        "In closed form the equations of these {} degrees of freedom have more terms than anybody could read. They are \
+         written out for robots of up to {LARGEST}, as long as no entry swells and all of them take less than {} kB. What M \
+         is made of is drawn below, and `dynamics generate` writes all of it as code.",
+        subject.robot.dof(),
+        LONGEST / 1000
+    )
+}
+
+/// What each coordinate and speed is called in the equations.
+fn symbols(subject: &Subject<'_, '_>) -> Table {
+    let robot = subject.robot;
+    let [q, v] = [Argument::Q, Argument::V].map(|argument| subject.letters(argument));
+    let mut rows: BTreeMap<(usize, usize), Vec<String>> = BTreeMap::new();
+    for (k, joint) in robot.model.joints.iter().enumerate() {
+        let is_plain = joint.q.len() == joint.v.len();
+        let count = joint.q.len().max(joint.v.len());
+        for part in 0..count {
+            let name = |names: &[String], range: &std::ops::Range<usize>| {
+                range.clone().nth(part).and_then(|at| names.get(at)).cloned().unwrap_or_default()
+            };
+            let of_speed = name(&robot.coordinates.v, &joint.v);
+            let of_speed = if is_plain || of_speed.is_empty() { String::new() } else { format!("`{of_speed}`") };
+            let coordinate = format!("`{}`", name(&robot.coordinates.q, &joint.q));
+            let coordinate = if part < joint.q.len() { coordinate } else { String::new() };
+            rows.insert((k, part), vec![coordinate, name(&q, &joint.q), of_speed, name(&v, &joint.v)]);
+        }
+    }
+    let has_twists = robot.tree.coordinates() != robot.dof();
+    let drop = |mut row: Vec<String>| {
+        if !has_twists {
+            row.remove(2);
+        }
+        row
+    };
+    let head = ["coordinate", "symbol", "speed", "its symbol"].map(str::to_owned).to_vec();
+    let head = if has_twists { head } else { ["coordinate", "symbol", "its rate"].map(str::to_owned).to_vec() };
+    Table::new("Symbols", "llll").head(head).rows(rows.into_values().map(drop))
+}
+
+/// All of them, the shortest definitions first.
+fn written(forms: &ClosedForms) -> Vec<Equation> {
+    let ClosedForms { notation, definitions, .. } = forms;
+    let mut equations = vec![];
+    if !definitions.is_empty() {
+        equations.push(of_definitions(definitions, notation));
+    }
+    equations.extend([
+        of_matrix("Mass matrix", "M(q)", &forms.mass_matrix, notation),
+        of_matrix("Coriolis matrix, with Ṁ = C + Cᵀ", "C(q,v)", &forms.coriolis_matrix, notation),
+        of_matrix("Gravity forces, G = ∂V/∂q", "G(q)", &forms.gravity_forces, notation),
+        of_form("Kinetic energy", "T", &forms.kinetic_energy, notation),
+        of_form("Potential energy", "V", &forms.potential_energy, notation),
+        of_form("Lagrangian, L = T − V", "L", &forms.lagrangian, notation),
+    ]);
+    equations
+}
+
+fn math(rows: &str) -> String {
+    format!(r#"<math display="block">{rows}</math>"#)
+}
+
+/// The left-hand side: a letter, perhaps of arguments.
+fn left(name: &str) -> String {
+    let (letter, arguments) = name.split_once('(').unwrap_or((name, ""));
+    let mut text = format!("<mi>{letter}</mi>");
+    if let Some(arguments) = arguments.strip_suffix(')') {
+        let names: Vec<String> = arguments.split(',').map(|name| format!("<mi>{name}</mi>")).collect();
+        text += &format!("<mo>(</mo>{}<mo>)</mo>", names.join("<mo>,</mo>"));
+    }
+    text + "<mo>=</mo>"
+}
+
+/// In brackets, or where that is wider than a page, an equation for each entry that is not zero.
+fn of_matrix(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> Equation {
+    let width = matrix.unicode(notation).iter().map(|line| line.chars().count()).max().unwrap_or(0);
+    if width > WIDEST {
+        return of_entries(title, name, matrix, notation);
+    }
+    Equation {
+        title: title.to_owned(),
+        mathml: math(&format!("<mrow>{}{}</mrow>", left(name), matrix.mathml(notation))),
+        latex: format!("{name} = {}", matrix.latex(notation)),
+    }
+}
+
+fn of_entries(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> Equation {
+    let letter = name.split('(').next().unwrap_or(name);
+    let lines = matrix.entries().filter(|(.., form)| !form.is_zero()).map(|(row, column, form)| {
+        let place = |i: usize, j: usize| match matrix.columns() {
+            1 => (i + 1).to_string(),
+            _ => format!("{}{}{}", i + 1, if i.max(j) > 8 { "," } else { "" }, j + 1),
+        };
+        let mut names = vec![place(row, column)];
+        if matrix.is_symmetric() && row != column {
+            names.push(place(column, row));
+        }
+        let drawn = names.iter().map(|at| format!("<msub><mi>{letter}</mi><mn>{at}</mn></msub>"));
+        let set = names.iter().map(|at| format!("{letter}_{{{at}}}"));
+        Line {
+            name: drawn.collect::<Vec<_>>().join("<mo>=</mo>"),
+            mathml: form.mathml(notation),
+            latex: format!("{} &= {}", set.collect::<Vec<_>>().join(" = "), form.latex(notation)),
+        }
+    });
+    let lines: Vec<Line> = lines.collect();
+    let all = matrix.rows() * matrix.columns();
+    let given = lines.len() < matrix.entries().count();
+    let title = if given && all > 1 { format!("{title}; the other entries are zero") } else { title.to_owned() };
+    of_lines(title, &lines)
+}
+
+/// An equation among several.
+struct Line {
+    /// The left-hand side, MathML.
+    name: String,
+    /// The right-hand side.
+    mathml: String,
+    /// Both, with `&` before the sign.
+    latex: String,
+}
+
+/// Equations one below the other.
+fn of_lines(title: String, lines: &[Line]) -> Equation {
+    let row = |Line { name, mathml, .. }: &Line| {
+        format!("<mtr><mtd><mrow>{name}</mrow></mtd><mtd><mrow><mo>=</mo>{mathml}</mrow></mtd></mtr>")
+    };
+    let rows: String = lines.iter().map(row).collect();
+    let latex: Vec<&str> = lines.iter().map(|line| &*line.latex).collect();
+    Equation {
+        title,
+        mathml: format!(r#"<math display="block" class="lines"><mtable>{rows}</mtable></math>"#),
+        latex: format!("\\begin{{aligned}}\n{}\n\\end{{aligned}}", latex.join(" \\\\\n")),
+    }
+}
+
+fn of_form(title: &str, name: &str, form: &Form, notation: &Notation) -> Equation {
+    Equation {
+        title: title.to_owned(),
+        mathml: math(&format!("<mrow>{}{}</mrow>", left(name), form.mathml(notation))),
+        latex: format!("{name} = {}", form.latex(notation)),
+    }
+}
+
+/// Names for parts of the others.
+fn of_definitions(definitions: &[(SymbolId, Form)], notation: &Notation) -> Equation {
+    let line = |(symbol, form): &(SymbolId, Form)| {
+        let name = &notation.letter(*symbol).name;
+        Line {
+            name: name.mathml(),
+            mathml: form.mathml(notation),
+            latex: format!("{} &= {}", name.latex(), form.latex(notation)),
+        }
+    };
+    of_lines("Names for parts of what follows".to_owned(), &definitions.iter().map(line).collect::<Vec<_>>())
+}
