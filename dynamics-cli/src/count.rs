@@ -24,7 +24,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
-    let robot = Robot::of(&input, &graph, Wanted::All)?;
+    let robot = Robot::with_fields(&input, &graph, Wanted::All, &[])?;
     let head =
         ["method", "mul", "add", "div", "sqrt", "sin+cos", "instr", "chain", "form"].map(str::to_owned);
     let (of_robot, of_frames): (Vec<_>, Vec<_>) =
