@@ -9,6 +9,7 @@
 //! scripts and command lines may make the same one. It does no input or output, depends on no clock and no
 //! hash order, and never panics on any input: a panic is a bug of this crate.
 
+pub mod closed;
 pub mod diagnostics;
 pub mod emit;
 pub mod mechanics;

@@ -8,7 +8,7 @@ use dynamics_codegen::diagnostics::Code;
 
 /// The modules of the compiler. Each may use those before it, and none after.
 const LADDER: &[&str] =
-    &["diagnostics", "symbolic", "spatial", "spec", "model", "mechanics", "passes", "emit"];
+    &["diagnostics", "symbolic", "closed", "spatial", "spec", "model", "mechanics", "passes", "emit"];
 
 /// Files longer than this are two files.
 const LINE_LIMIT: usize = 600;

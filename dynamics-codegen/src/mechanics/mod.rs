@@ -3,6 +3,7 @@
 pub mod aba;
 pub mod base_regressor;
 pub mod centroidal;
+pub mod closed;
 pub mod columns;
 pub mod composite;
 pub mod coupling;

@@ -1,0 +1,334 @@
+//! A sum of items as a textbook writes it: common factors pulled out, terms collected by what they share, in order.
+//!
+//! Collecting is greedy, and bounded: in each step the terms that share most are put into one bracket. A bracket is worth
+//! it if it saves more than itself. Squares are not torn apart: `l² + l a` stays, and sines and cosines alone are taken out of
+//! three terms or more, for `I sin² + J cos² + K cos²` is easier read than with a bracket.
+
+use super::Form;
+use super::item::{Factor, Item, Writer};
+use crate::symbolic::Number;
+
+/// What a pair of brackets costs, a symbol being 4.
+const BRACKET: usize = 3;
+
+/// What a bracket costs that opens right behind another one.
+const DOUBLE_BRACKET: usize = 2;
+
+/// The last rank of the quantities that a sum is collected by: inertias, masses, gravity.
+const WEIGHTY: u8 = 2;
+
+/// Sums of more items are not collected.
+const ITEMS: usize = 80;
+
+/// A part of a sum: a number times factors, perhaps times a bracket.
+#[derive(Clone, Debug)]
+struct Part {
+    outside: Item,
+    /// The items of the bracket and how they are written.
+    inside: Option<(Vec<Item>, Form)>,
+}
+
+impl Writer<'_> {
+    /// The sum of items.
+    pub(super) fn collected(&self, mut items: Vec<Item>) -> Form {
+        sort(&mut items);
+        match items.len() {
+            0 => return Form::ZERO,
+            1 => return self.item(&items[0]),
+            2..=ITEMS => {}
+            _ => return Form::sum(items.iter().map(|item| self.item(item))),
+        }
+        let (outside, inside) = split_common(items.clone());
+        let whole = self.sum_of(self.parts(items));
+        if outside.factors.is_empty() && outside.coefficient.is_one() {
+            return whole;
+        }
+        let parts = self.parts(inside.clone());
+        let inner = self.sum_of(parts);
+        let pulled = self.bracketed(&outside, &inside, inner);
+        if self.length(&pulled) <= self.length(&whole) { pulled } else { whole }
+    }
+
+    /// The parts of a sum whose items have nothing in common.
+    fn parts(&self, mut items: Vec<Item>) -> Vec<Part> {
+        let mut parts: Vec<Part> = Vec::new();
+        while let Some(shared) = best_shared(&items) {
+            let (group, rest): (Vec<_>, Vec<_>) = items.into_iter().partition(|item| has_all(item, &shared));
+            items = rest;
+            let mut inside: Vec<Item> = group.into_iter().map(|item| without(item, &shared)).collect();
+            sort(&mut inside);
+            let (common, inside) = split_common(inside);
+            let mut outside = common;
+            for (factor, exponent) in shared {
+                outside.multiply(factor, exponent);
+            }
+            // What the group has in common, beyond what it was chosen by, is outside already.
+            let form = self.collected(inside.clone());
+            parts.push(Part { outside, inside: Some((inside, form)) });
+        }
+        parts.extend(items.into_iter().map(|outside| Part { outside, inside: None }));
+        self.merge(parts)
+    }
+
+    /// Parts with the same bracket become one: `a (…) + b (…)` is `(a + b) (…)`.
+    fn merge(&self, parts: Vec<Part>) -> Vec<Part> {
+        let mut merged: Vec<Part> = Vec::new();
+        let mut taken = vec![false; parts.len()];
+        for k in 0..parts.len() {
+            if taken[k] {
+                continue;
+            }
+            let same = |other: &Part| match (&parts[k].inside, &other.inside) {
+                (Some((a, _)), Some((b, _))) => a == b,
+                _ => false,
+            };
+            let equal: Vec<usize> = (k..parts.len()).filter(|&j| same(&parts[j])).collect();
+            if equal.len() < 2 {
+                merged.push(parts[k].clone());
+                continue;
+            }
+            let mut outside = Vec::new();
+            for &j in &equal {
+                taken[j] = true;
+                outside.push(parts[j].outside.clone());
+            }
+            sort(&mut outside);
+            let (common, rest) = split_common(outside);
+            let sum = self.collected(rest.clone());
+            let Some((inside, form)) = &parts[k].inside else { continue };
+            let product = Form::product([sum, form.clone()]);
+            let mut items = rest;
+            items.extend(inside.iter().cloned());
+            merged.push(Part { outside: common, inside: Some((items, product)) });
+        }
+        merged
+    }
+
+    /// The sum of parts in order.
+    fn sum_of(&self, mut parts: Vec<Part>) -> Form {
+        let key = |part: &Part| {
+            let first = part.inside.as_ref().and_then(|(items, _)| items.first());
+            order(&part.outside, first)
+        };
+        parts.sort_by(|a, b| key(a).cmp(&key(b)));
+        lead_with_plus(&mut parts, |part| !part.outside.coefficient.is_negative());
+        let forms = parts.into_iter().map(|part| match part.inside {
+            Some((items, form)) => self.bracketed(&part.outside, &items, form),
+            None => self.item(&part.outside),
+        });
+        Form::sum(forms)
+    }
+
+    /// Factors around a bracket.
+    fn bracketed(&self, outside: &Item, inside: &[Item], form: Form) -> Form {
+        let (minus, form) = form.split_sign();
+        let place = place_of_bracket(&outside.factors, inside);
+        let product = self.product(outside.coefficient, &outside.factors, vec![(place, form)]);
+        if minus { product.negative() } else { product }
+    }
+
+    /// How long a form is, a symbol being 4, with its brackets.
+    pub(super) fn length(&self, form: &Form) -> usize {
+        match form {
+            Form::Number(value) if value.is_one() => 0,
+            Form::Number(_) | Form::Symbol(_) => 4,
+            Form::Negative(inner) => self.length(inner),
+            Form::Sum(terms) => terms.iter().map(|term| self.length(term)).sum(),
+            Form::Product(factors) => {
+                let double = match &factors[..] {
+                    [Form::Sum(_), ..] => 0,
+                    _ => factors.iter().filter(|factor| opens_double(factor)).count() * DOUBLE_BRACKET,
+                };
+                double + factors.iter().map(|factor| self.bracket(factor)).sum::<usize>()
+            }
+            Form::Quotient(above, below) => self.bracket(above) + self.bracket(below),
+            Form::Power(base, _) => 1 + self.bracket(base),
+            Form::Sin(argument) | Form::Cos(argument) => {
+                4 + match &**argument {
+                    Form::Sum(terms) => 4 * terms.len(),
+                    _ => 4,
+                }
+            }
+            Form::Root(inner) => 4 + self.length(inner),
+        }
+    }
+
+    fn bracket(&self, form: &Form) -> usize {
+        let own = if matches!(form, Form::Sum(_)) { BRACKET } else { 0 };
+        own + self.length(form)
+    }
+}
+
+/// Before which of the factors a bracket stands: one without sines before sines, one without speeds before speeds, and a
+/// sum of single symbols where the first of these would.
+pub(super) fn place_of_bracket(factors: &[(Factor, i32)], inside: &[Item]) -> usize {
+    let before = |is_before: &dyn Fn(&Factor) -> bool| {
+        factors.iter().take_while(|(factor, _)| is_before(factor)).count()
+    };
+    let has = |is_so: fn(&Factor) -> bool| {
+        inside.iter().any(|item| item.factors.iter().any(|(factor, _)| is_so(factor)))
+    };
+    let is_single = |item: &Item| matches!(&item.factors[..], [(factor, 1)] if factor.is_parameter());
+    match inside.first().and_then(|item| item.factors.first()) {
+        Some((first, _)) if inside.iter().all(is_single) => before(&|factor| factor < first),
+        _ if has(Factor::is_moving) => factors.len(),
+        _ if has(Factor::is_trig) => before(&|factor| !factor.is_moving()),
+        _ => before(&|factor| !factor.is_moving() && !factor.is_trig()),
+    }
+}
+
+/// Whether a bracket begins with another one.
+fn opens_double(form: &Form) -> bool {
+    let Form::Sum(terms) = form else { return false };
+    let first = match terms.first() {
+        Some(Form::Negative(inner)) => Some(&**inner),
+        first => first,
+    };
+    matches!(first, Some(Form::Product(factors)) if matches!(factors.first(), Some(Form::Sum(_))))
+}
+
+/// The order of terms: what moves last, then what has no sines before what has, then by factors.
+type Order = (Vec<(Factor, i32)>, usize, Vec<(Factor, i32)>);
+
+fn order(outside: &Item, inside: Option<&Item>) -> Order {
+    let trig =
+        |item: &Item| item.factors.iter().filter(|(factor, _)| matches!(factor, Factor::Trig(..))).count();
+    let moving = |item: &Item| {
+        let moves = |(factor, exponent): &(Factor, i32)| {
+            matches!(factor, Factor::Moving(_)).then(|| (factor.clone(), -*exponent))
+        };
+        item.factors.iter().filter_map(moves).collect::<Vec<_>>()
+    };
+    let mut factors: Vec<(Factor, i32)> = outside.factors.clone();
+    if let Some(inside) = inside {
+        factors.extend(inside.factors.iter().cloned());
+        factors.sort();
+    }
+    // Squares before products of the same first factor.
+    let factors = factors.into_iter().map(|(factor, exponent)| (factor, -exponent)).collect();
+    (moving(outside), usize::from(trig(outside) + inside.map_or(0, trig) > 0), factors)
+}
+
+/// Items in order, the first without a minus if there is one.
+pub(super) fn sort(items: &mut [Item]) {
+    items.sort_by(|a, b| order(a, None).cmp(&order(b, None)));
+    lead_with_plus(items, |item| !item.coefficient.is_negative());
+}
+
+/// Brings the first positive one to the front.
+fn lead_with_plus<T>(items: &mut [T], is_positive: impl Fn(&T) -> bool) {
+    if let Some(first) = items.iter().position(is_positive) {
+        items[..=first].rotate_right(1);
+    }
+}
+
+/// What all items have in common, and what is left of them: a sign, a number, factors with one exponent.
+pub(super) fn split_common(items: Vec<Item>) -> (Item, Vec<Item>) {
+    let Some(first) = items.first() else {
+        return (Item { coefficient: Number::ONE, factors: vec![] }, items);
+    };
+    let shared: Vec<_> = first
+        .factors
+        .iter()
+        .filter(|shared| items.iter().all(|item| item.factors.contains(shared)))
+        .cloned()
+        .collect();
+    let size = first.coefficient.abs();
+    let size =
+        if items.iter().all(|item| item.coefficient.abs() == size) { size } else { common_number(&items) };
+    // A sign is common to all, or, of three and more, is that of the first in order: the rest then looks alike wherever it
+    // comes from.
+    let is_negative = |item: &Item| item.coefficient.is_negative();
+    let leads_with_minus =
+        || items.iter().min_by(|a, b| order(a, None).cmp(&order(b, None))).is_some_and(is_negative);
+    let minus = items.iter().all(is_negative) || items.len() > 2 && leads_with_minus();
+    let sign = if minus { -Number::ONE } else { Number::ONE };
+    let coefficient = size * sign;
+    let rest = items.into_iter().map(|item| {
+        let mut rest = without(item, &shared);
+        rest.coefficient = rest.coefficient / coefficient;
+        rest
+    });
+    let mut rest: Vec<Item> = rest.collect();
+    sort(&mut rest);
+    (Item { coefficient, factors: shared }, rest)
+}
+
+/// A number that all coefficients are simple multiples of: their largest whole divisor, over their one denominator; or the
+/// largest of them, where it is a decimal, as of gravity.
+fn common_number(items: &[Item]) -> Number {
+    let largest =
+        items.iter().map(|item| item.coefficient.abs()).max_by(|a, b| a.cmp_value(*b)).unwrap_or(Number::ONE);
+    let is_simple = |value: Number| fraction(value).is_some_and(|(num, den)| num <= 24 && den <= 24);
+    if !is_simple(largest) && items.iter().all(|item| is_simple(item.coefficient.abs() / largest)) {
+        return largest;
+    }
+    let (mut divisor, mut denominator) = (0, None);
+    for item in items {
+        let Some((num, den)) = fraction(item.coefficient.abs()) else { return Number::ONE };
+        // Decimals have no common denominator that anybody sees.
+        if den > 500 || *denominator.get_or_insert(den) != den {
+            return Number::ONE;
+        }
+        let (mut a, mut b) = (divisor, num);
+        while b != 0 {
+            (a, b) = (b, a % b);
+        }
+        divisor = a;
+    }
+    Number::ratio(divisor.max(1), denominator.unwrap_or(1))
+}
+
+/// Numerator and denominator of a fraction of moderate size.
+fn fraction(value: Number) -> Option<(i64, i64)> {
+    let Number::Exact(exact) = value else { return None };
+    let small = |value: i128| i64::try_from(value).ok().filter(|value| *value < 1_000_000);
+    (exact.pi_power() == 0).then_some(())?;
+    Some((small(exact.numerator())?, small(exact.denominator())?))
+}
+
+fn has_all(item: &Item, shared: &[(Factor, i32)]) -> bool {
+    shared.iter().all(|shared| item.factors.contains(shared))
+}
+
+fn without(mut item: Item, shared: &[(Factor, i32)]) -> Item {
+    item.factors.retain(|factor| !shared.contains(factor));
+    item
+}
+
+/// The factors that several items share and that save most if they are pulled out of these.
+fn best_shared(items: &[Item]) -> Option<Vec<(Factor, i32)>> {
+    let mut best: Option<(usize, Vec<(Factor, i32)>)> = None;
+    for (k, first) in items.iter().enumerate() {
+        for second in &items[k + 1..] {
+            let shared: Vec<_> =
+                first.factors.iter().filter(|factor| second.factors.contains(factor)).cloned().collect();
+            if shared.is_empty() || best.as_ref().is_some_and(|(_, known)| *known == shared) {
+                continue;
+            }
+            let weight: usize = shared.iter().map(|(factor, _)| weight(factor)).sum();
+            let count = items.iter().filter(|item| has_all(item, &shared)).count();
+            let Some(gain) = (weight * (count - 1)).checked_sub(BRACKET).filter(|gain| *gain > 0) else {
+                continue;
+            };
+            let is_better = match &best {
+                None => true,
+                Some((known, factors)) => gain > *known || gain == *known && shared < *factors,
+            };
+            if is_better {
+                best = Some((gain, shared));
+            }
+        }
+    }
+    best.map(|(_, shared)| shared)
+}
+
+/// What it saves to write a factor once less. A length alone is left in two terms, and pulled out of three; sines are a
+/// little less than that.
+fn weight(factor: &Factor) -> usize {
+    match factor {
+        Factor::Trig(..) => 2,
+        Factor::Symbol(rank, _) if *rank > WEIGHTY => 3,
+        _ => 4,
+    }
+}
