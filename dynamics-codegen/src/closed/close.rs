@@ -43,6 +43,7 @@ pub fn close<'g>(graph: &'g Graph, notation: &mut Notation, exprs: &[Expr<'g>]) 
 impl Writer<'_> {
     /// A polynomial as a textbook writes it.
     pub(super) fn form(&self, polynomial: &Polynomial) -> Form {
+        let polynomial = &polynomial.with_fractions();
         let moving = self.by_motion(polynomial);
         match &moving[..] {
             [] => Form::ZERO,
@@ -94,7 +95,9 @@ impl Writer<'_> {
             let outside = if is_energy { half } else { Number::ONE };
             let polynomial = polynomial.scaled(Number::ONE / outside);
             let opposite = polynomial.scaled(-Number::ONE);
-            let same = |(known, _): &&mut (Polynomial, Vec<Item>)| *known == polynomial || *known == opposite;
+            let same = |(known, items): &&mut (Polynomial, Vec<Item>)| {
+                items[0].coefficient.abs() == outside && (*known == polynomial || *known == opposite)
+            };
             match groups.iter_mut().find(same) {
                 Some((known, items)) => {
                     let sign = if *known == polynomial { Number::ONE } else { -Number::ONE };

@@ -38,21 +38,30 @@ impl Writer<'_> {
             2..=ITEMS => {}
             _ => return Form::sum(items.iter().map(|item| self.item(item))),
         }
-        let (outside, inside) = split_common(items.clone());
-        let whole = self.sum_of(self.parts(items));
-        if outside.factors.is_empty() && outside.coefficient.is_one() {
+        let whole = self.by_parts(items.clone());
+        let (outside, inside) = split_common(items);
+        if outside.factors.is_empty() && outside.coefficient.abs().is_one() {
             return whole;
         }
-        let parts = self.parts(inside.clone());
-        let inner = self.sum_of(parts);
+        let inner = self.by_parts(inside.clone());
         let pulled = self.bracketed(&outside, &inside, inner);
         if self.length(&pulled) <= self.length(&whole) { pulled } else { whole }
     }
 
+    /// The sum of items by what they share: by what saves most, or by masses and the like first, whichever is shorter.
+    fn by_parts(&self, items: Vec<Item>) -> Form {
+        let by_gain = self.sum_of(self.parts(items.clone(), false));
+        if items.len() > ITEMS / 2 || best_shared(&items, true) == best_shared(&items, false) {
+            return by_gain;
+        }
+        let by_weight = self.sum_of(self.parts(items, true));
+        if self.length(&by_weight) < self.length(&by_gain) { by_weight } else { by_gain }
+    }
+
     /// The parts of a sum whose items have nothing in common.
-    fn parts(&self, mut items: Vec<Item>) -> Vec<Part> {
+    fn parts(&self, mut items: Vec<Item>, by_weight: bool) -> Vec<Part> {
         let mut parts: Vec<Part> = Vec::new();
-        while let Some(shared) = best_shared(&items) {
+        while let Some(shared) = best_shared(&items, by_weight) {
             let (group, rest): (Vec<_>, Vec<_>) = items.into_iter().partition(|item| has_all(item, &shared));
             items = rest;
             let mut inside: Vec<Item> = group.into_iter().map(|item| without(item, &shared)).collect();
@@ -131,6 +140,7 @@ impl Writer<'_> {
     pub(super) fn length(&self, form: &Form) -> usize {
         match form {
             Form::Number(value) if value.is_one() => 0,
+            Form::Number(value) if fraction(*value).is_none_or(|(_, den)| den > 24) => 6,
             Form::Number(_) | Form::Symbol(_) => 4,
             Form::Negative(inner) => self.length(inner),
             Form::Sum(terms) => terms.iter().map(|term| self.length(term)).sum(),
@@ -259,9 +269,18 @@ pub(super) fn split_common(items: Vec<Item>) -> (Item, Vec<Item>) {
 fn common_number(items: &[Item]) -> Number {
     let largest =
         items.iter().map(|item| item.coefficient.abs()).max_by(|a, b| a.cmp_value(*b)).unwrap_or(Number::ONE);
+    let ratios = || items.iter().map(|item| item.coefficient.abs() / largest);
     let is_simple = |value: Number| fraction(value).is_some_and(|(num, den)| num <= 24 && den <= 24);
-    if !is_simple(largest) && items.iter().all(|item| is_simple(item.coefficient.abs() / largest)) {
+    if !is_simple(largest) && ratios().all(is_simple) && ratios().filter(|ratio| ratio.is_one()).count() > 1 {
         return largest;
+    }
+    let fractions: Vec<_> = items.iter().map_while(|item| fraction(item.coefficient.abs())).collect();
+    if fractions.len() == items.len() && fractions.iter().all(|(_, den)| *den > 24 && !is_decimal(*den)) {
+        let multiple = fractions.iter().fold(1, |multiple, (_, den)| multiple / gcd(multiple, *den) * den);
+        let divisor = fractions.iter().fold(0, |divisor, (num, den)| gcd(divisor, num * (multiple / den)));
+        if multiple < 10_000 {
+            return Number::ratio(divisor.max(1), multiple);
+        }
     }
     let (mut divisor, mut denominator) = (0, None);
     for item in items {
@@ -270,19 +289,32 @@ fn common_number(items: &[Item]) -> Number {
         if den > 500 || *denominator.get_or_insert(den) != den {
             return Number::ONE;
         }
-        let (mut a, mut b) = (divisor, num);
-        while b != 0 {
-            (a, b) = (b, a % b);
-        }
-        divisor = a;
+        divisor = gcd(divisor, num);
     }
     Number::ratio(divisor.max(1), denominator.unwrap_or(1))
+}
+
+fn gcd(mut a: i64, mut b: i64) -> i64 {
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+fn is_decimal(mut den: i64) -> bool {
+    while den % 2 == 0 {
+        den /= 2;
+    }
+    while den % 5 == 0 {
+        den /= 5;
+    }
+    den == 1
 }
 
 /// Numerator and denominator of a fraction of moderate size.
 fn fraction(value: Number) -> Option<(i64, i64)> {
     let Number::Exact(exact) = value else { return None };
-    let small = |value: i128| i64::try_from(value).ok().filter(|value| *value < 1_000_000);
+    let small = |value: i128| i64::try_from(value).ok().filter(|value| value.abs() < 1_000_000);
     (exact.pi_power() == 0).then_some(())?;
     Some((small(exact.numerator())?, small(exact.denominator())?))
 }
@@ -297,8 +329,9 @@ fn without(mut item: Item, shared: &[(Factor, i32)]) -> Item {
 }
 
 /// The factors that several items share and that save most if they are pulled out of these.
-fn best_shared(items: &[Item]) -> Option<Vec<(Factor, i32)>> {
-    let mut best: Option<(usize, Vec<(Factor, i32)>)> = None;
+fn best_shared(items: &[Item], by_weight: bool) -> Option<Vec<(Factor, i32)>> {
+    // Whether it has what is preferred, what it saves, what it is.
+    let mut best: Option<((bool, usize), Vec<(Factor, i32)>)> = None;
     for (k, first) in items.iter().enumerate() {
         for second in &items[k + 1..] {
             let shared: Vec<_> =
@@ -311,12 +344,15 @@ fn best_shared(items: &[Item]) -> Option<Vec<(Factor, i32)>> {
             let Some(gain) = (weight * (count - 1)).checked_sub(BRACKET).filter(|gain| *gain > 0) else {
                 continue;
             };
+            let is_weighty =
+                |(factor, _): &(Factor, i32)| matches!(factor, Factor::Symbol(rank, _) if *rank <= WEIGHTY);
+            let worth = (by_weight && shared.iter().any(is_weighty), gain);
             let is_better = match &best {
                 None => true,
-                Some((known, factors)) => gain > *known || gain == *known && shared < *factors,
+                Some((known, factors)) => worth > *known || worth == *known && shared < *factors,
             };
             if is_better {
-                best = Some((gain, shared));
+                best = Some((worth, shared));
             }
         }
     }

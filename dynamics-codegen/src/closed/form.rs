@@ -36,11 +36,11 @@ impl Form {
     /// 1
     pub const ONE: Self = Self::Number(Number::ONE);
 
-    /// A number. What the compiler knows as a float is rounded to a double, for nobody reads more digits.
+    /// A number. What the compiler knows as a float has six digits on paper, for nobody reads more.
     pub fn number(value: Number) -> Self {
         let magnitude = match value.abs() {
             exact @ Number::Exact(_) => exact,
-            float => Number::parse_decimal(&float.to_string()).unwrap_or(float),
+            float => Number::parse_decimal(&format!("{:.5e}", float.to_f64())).unwrap_or(float),
         };
         let form = Self::Number(magnitude);
         if value.is_negative() { Self::Negative(Box::new(form)) } else { form }

@@ -20,7 +20,7 @@ pub(super) struct Numeral {
 const ZEROS: usize = 3;
 
 /// Halves and quarters are written as such up to this numerator; beyond, they are decimals.
-const SMALL: u128 = 9;
+const SMALL: u128 = 3;
 
 impl Numeral {
     /// The parts of a number.

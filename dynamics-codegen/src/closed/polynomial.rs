@@ -105,4 +105,45 @@ impl Polynomial {
         let scaled = self.0.iter().map(|&(monomial, coefficient)| (monomial, k * coefficient));
         Self(scaled.filter(|(_, coefficient)| !coefficient.is_zero()).collect())
     }
+
+    /// The same with fractions for floats that are next to one: products of roots are often rational again.
+    pub(super) fn with_fractions(&self) -> Self {
+        let terms = self.0.iter().map(|&(monomial, coefficient)| (monomial, fraction_near(coefficient)));
+        Self(terms.filter(|(_, coefficient)| !coefficient.is_zero()).collect())
+    }
+}
+
+/// The denominators that are looked for. Of a float with a hundred bits, a fraction as close as that is no chance.
+const DENOMINATORS: i64 = 100_000;
+
+/// The fraction with a small denominator that a float is, but for its last bits; else the float.
+fn fraction_near(value: Number) -> Number {
+    let Number::Float(_) = value else { return value };
+    if value.abs().to_f64() > 1e6 {
+        return value;
+    }
+    // Continued fractions: the convergents p/q of the value.
+    let (mut before, mut last) = ((0, 1), (1, 0));
+    let mut rest = value.abs();
+    for _ in 0..32 {
+        let whole = rest.to_f64().floor();
+        if !(0.0..1e9).contains(&whole) {
+            return value;
+        }
+        let whole = whole as i64;
+        let next = (whole * last.0 + before.0, whole * last.1 + before.1);
+        if next.1 > DENOMINATORS {
+            return value;
+        }
+        (before, last) = (last, next);
+        let fraction = Number::ratio(last.0, last.1);
+        let distance = (value.abs() - fraction).abs();
+        if distance.to_f64() <= 1e-28 * value.abs().to_f64() {
+            return if value.is_negative() { -fraction } else { fraction };
+        }
+        rest = rest - Number::integer(whole);
+        let Some(inverse) = Number::ONE.checked_div(rest) else { return value };
+        rest = inverse;
+    }
+    value
 }

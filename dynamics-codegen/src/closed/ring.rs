@@ -21,7 +21,7 @@ impl std::fmt::Display for Swelling {
 impl std::error::Error for Swelling {}
 
 /// What is multiplied out, or the sign that it is too much.
-pub type Result<T> = std::result::Result<T, Swelling>;
+pub(super) type Result<T> = std::result::Result<T, Swelling>;
 
 /// What a variable of polynomials is.
 #[derive(Clone, Debug, PartialEq)]

@@ -269,7 +269,16 @@ impl JointNames {
         let mut names = Self { coordinates: vec![], speeds: vec![] };
         let generic = model.joints.iter().filter(|joint| own_name(joint).is_none());
         let indexed = generic.clone().filter(|joint| slide_letter(model, joint).is_none()).count();
-        let bodies = generic.filter(|joint| joint.v.len() != 1).count();
+        let mut several = generic.filter(|joint| joint.v.len() != 1);
+        let (first, second) = (several.next(), several.next());
+        // Two of one kind have parts of one name.
+        let is_ambiguous = first.is_some() && second.is_some() && {
+            let ball = |joint: &&JointInfo| joint.q.len() != joint.v.len();
+            let kinds = [true, false].map(|is_ball| {
+                model.joints.iter().filter(|joint| joint.v.len() != 1 && ball(joint) == is_ball).count()
+            });
+            kinds.iter().any(|count| *count > 1)
+        };
         let (mut lines, mut others) = (0, 0);
         for joint in &model.joints {
             if joint.q.len() == 1 {
@@ -286,7 +295,7 @@ impl JointNames {
                 continue;
             }
             others += 1;
-            let index = if bodies > 1 { others.to_string() } else { String::new() };
+            let index = if is_ambiguous { others.to_string() } else { String::new() };
             names.coordinates.extend(parts(&joint.coordinate_names(), joint, &index));
             match joint.v.len() == joint.q.len() {
                 true => {

@@ -1,0 +1,7 @@
+//! The closed forms of robots: what is written, that it is read back, and that it is what the code computes.
+#![allow(clippy::unwrap_used, reason = "a test may fail")]
+
+mod field;
+mod proof;
+mod robots;
+mod written;
