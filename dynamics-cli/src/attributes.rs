@@ -1,7 +1,7 @@
 //! What the command line says of a robot, as the attributes that would say it on its struct.
 
 use dynamics_codegen::diagnostics::Place;
-use proc_macro2::{LineColumn, Span, TokenStream};
+use proc_macro2::{LineColumn, TokenStream};
 
 use crate::failure::{Failure, Problem, Spot};
 use crate::input::shown;
@@ -57,12 +57,14 @@ impl Attributes {
         self.0.iter().map(flag).collect()
     }
 
-    /// Where tokens of [`text`](Self::text) were written; nowhere if they are not of it.
-    pub(crate) fn spot(&self, place: &Place) -> Option<Spot> {
+    /// Where tokens of [`text`](Self::text) were written, which had so many lines before it; nowhere if they are not of
+    /// it.
+    pub(crate) fn spot(&self, place: &Place, lines: usize) -> Option<Spot> {
         let Place::Tokens { start, end } = place else { return None };
-        let [start, end]: [Span; 2] = [*start, *end];
-        let given = self.0.get(start.start().line.checked_sub(2)? / 2)?;
-        Some(given.spot(given.head.len(), start.start(), end.end()))
+        let [start, end] = [start.start(), end.end()]
+            .map(|LineColumn { line, column }| LineColumn { line: line.saturating_sub(lines), column });
+        let given = self.0.get(start.line.checked_sub(2)? / 2)?;
+        Some(given.spot(given.head.len(), start, end))
     }
 }
 

@@ -3,11 +3,11 @@
 use dynamics_codegen::diagnostics::Place;
 use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle};
-use dynamics_codegen::model::{JointInfo, Limits, Motion, Passive};
+use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
-use dynamics_codegen::spec::{JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
-use dynamics_codegen::symbolic::{Graph, Number};
+use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
+use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
 use crate::failure::Failure;
 use crate::input::{Input, InputArgs, shown};
@@ -15,7 +15,6 @@ use crate::output::{print, table};
 use crate::progress::Progress;
 use crate::robot::{Robot, State, Wanted};
 use crate::tree;
-use crate::wording::for_the_command_line;
 
 /// Say what a file describes, what was not used of it, and whether it can be a robot
 #[derive(clap::Args)]
@@ -29,24 +28,29 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
-    let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
+    let robot = Robot::with_fields(&input, &graph, Wanted::Only(&Method::OF_ROBOT), &[])?;
     let _progress = Progress::of("checking");
-    let text = summary(args, &input, &robot);
+    let text = summary(args, &input, &robot, &graph);
     print(&text.split('\n').map(shown).collect::<Vec<_>>().join("\n"))
 }
 
-fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
+fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) -> String {
     let Robot { spec, report, .. } = robot;
     let name =
         report.robot.as_deref().map_or(String::new(), |name| format!(" `{}`", name.replace('\n', " ")));
     let mut text = format!("robot{name} in {}\n", input.name);
-    text += &format!("  {}, {}\n", counted(report.links, "link", "links"), joints(spec, report.joints));
-    for fact in [base(robot), freedom(robot), mass(robot), parameters(robot)] {
+    let parts = match input.is_of_file() {
+        true => counted(report.links, "link", "links"),
+        false => counted(report.links, "body", "bodies"),
+    };
+    text += &format!("  {parts}, {}\n", joints(input, spec, report.joints));
+    for fact in [base(input, robot), freedom(robot), mass(robot), parameters(robot)] {
         text += &format!("  {fact}\n");
     }
     text += "\ntree\n";
     text += &tree::draw(spec, &report.root);
     for (title, rows) in [
+        ("fields", fields(robot)),
         ("joints", of_joints(robot)),
         ("followers", followers(spec)),
         ("passive", passive(robot)),
@@ -57,7 +61,7 @@ fn summary(args: &Args, input: &Input, robot: &Robot<'_>) -> String {
         }
     }
     text += "\nchecks\n";
-    text += &checks(args, robot);
+    text += &checks(args, robot, graph);
     for (title, notes) in [
         ("merged", &report.merged),
         ("ignored", &report.ignored),
@@ -73,11 +77,12 @@ pub(crate) fn counted(count: usize, one: &str, many: &str) -> String {
     if count == 1 { format!("1 {one}") } else { format!("{count} {many}") }
 }
 
-/// The joints of the file: that of a free base is not one of them.
-pub(crate) fn joints(spec: &RobotSpec, count: usize) -> String {
+/// The joints of the file, or of the struct: that of a free base is not one of them.
+pub(crate) fn joints(input: &Input, spec: &RobotSpec, count: usize) -> String {
     let is_welded = welded(&spec.joints);
     let of_file = spec.joints.iter().zip(is_welded);
-    let of_file: Vec<_> = of_file.filter(|(joint, _)| matches!(joint.place, Place::Text { .. })).collect();
+    let is_counted = |joint: &JointSpec| !input.is_of_file() || matches!(joint.place, Place::Text { .. });
+    let of_file: Vec<_> = of_file.filter(|(joint, _)| is_counted(joint)).collect();
     let moving = of_file.iter().filter(|(joint, _)| joint.has_coordinates()).count();
     let following = of_file.iter().filter(|(joint, still)| joint.keys.mimic.is_some() && !still).count();
     let locked = of_file.iter().filter(|(joint, still)| joint.kind != JointKind::Fixed && *still).count();
@@ -89,7 +94,12 @@ pub(crate) fn joints(spec: &RobotSpec, count: usize) -> String {
 }
 
 /// How it is in the world.
-pub(crate) fn base(robot: &Robot<'_>) -> String {
+pub(crate) fn base(input: &Input, robot: &Robot<'_>) -> String {
+    if !input.is_of_file() {
+        let carried = robot.spec.joints.iter().filter(|joint| joint.parent.text == "world");
+        let names: Vec<String> = carried.map(|joint| format!("`{}`", joint.child)).collect();
+        return format!("the world carries {}", names.join(", "));
+    }
     let root = &robot.report.root;
     let of_root =
         robot.spec.joints.iter().find(|joint| joint.child.text == *root && joint.parent.text == "world");
@@ -97,7 +107,10 @@ pub(crate) fn base(robot: &Robot<'_>) -> String {
         Some(joint) if joint.kind == JointKind::Free => {
             format!("its base `{root}` is free, by the joint `{}`", joint.name)
         }
-        _ if root.is_empty() => "its base is carried by a joint of the command line".to_owned(),
+        _ if root.is_empty() => match input.item() {
+            Some(_) => "its base is carried by a joint of the struct".to_owned(),
+            None => "its base is carried by a joint of the command line".to_owned(),
+        },
         _ => format!("its base `{root}` is fixed"),
     }
 }
@@ -118,9 +131,11 @@ pub(crate) fn freedom(robot: &Robot<'_>) -> String {
 /// The mass, exactly.
 pub(crate) fn mass(robot: &Robot<'_>) -> String {
     let tree = &robot.model.tree;
-    let moving = tree.links.iter().filter_map(|link| link.inertia.mass.as_number());
-    let moving = moving.fold(Number::ZERO, |sum, mass| sum + mass);
-    let base = tree.base.mass.as_number().unwrap_or(Number::ZERO);
+    let mut moving = tree.links.iter().map(|link| link.inertia.mass.as_number());
+    let moving = moving.try_fold(Number::ZERO, |sum, mass| Some(sum + mass?));
+    let (Some(moving), Some(base)) = (moving, tree.base.mass.as_number()) else {
+        return "its mass is that of its fields".to_owned();
+    };
     let at_rest = if base.is_zero() { String::new() } else { format!(", {} kg of it at rest", plain(base)) };
     format!("{} kg{at_rest}", plain(moving + base))
 }
@@ -131,6 +146,27 @@ pub(crate) fn parameters(robot: &Robot<'_>) -> String {
         (_, 0) => "too large for a regressor".to_owned(),
         (base, all) => format!("{base} base parameters, of {all} parameters"),
     }
+}
+
+/// The fields: their units, and their numbers if they have any.
+fn fields(robot: &Robot<'_>) -> String {
+    let Robot { spec, model, .. } = robot;
+    let row = |field: &Field| {
+        let name = &field.name.text;
+        let used = model.parameters.iter().find(|parameter| parameter.name == *name);
+        let known = spec.known.iter().find(|(known, _)| known == name);
+        let what = match (used, known) {
+            (Some(Parameter { unit: Some(unit), .. }), _) if unit == "1" => {
+                "rad, or a plain number".to_owned()
+            }
+            (Some(Parameter { unit: Some(unit), .. }), _) => unit.clone(),
+            (Some(_), _) => "of a unit that its uses do not tell".to_owned(),
+            (None, Some((_, number))) => plain(*number),
+            (None, None) => "in no equation".to_owned(),
+        };
+        vec![name.clone(), what]
+    };
+    table("ll", &spec.fields.iter().map(row).collect::<Vec<_>>())
 }
 
 /// The joints with coordinates, their entries of q, v and u, and their limits.
@@ -217,6 +253,7 @@ pub(crate) fn passive_rows(robot: &Robot<'_>) -> Vec<Vec<String>> {
         }
         let cell = |(value, unit): (f64, &str)| match value {
             0.0 => "-".to_owned(),
+            value if value.is_nan() => "of fields".to_owned(),
             value => format!("{value} {unit}"),
         };
         rows.push([vec![info.joint.clone()], values.into_iter().zip(units).map(cell).collect()].concat());
@@ -240,18 +277,31 @@ fn terms(spec: &RobotSpec) -> String {
     spec.terms.iter().map(line).collect()
 }
 
+/// The tree in doubles, with a value of its size for each field.
+fn sample<'g>(robot: &Robot<'g>, graph: &'g Graph) -> Tree<f64> {
+    let sample = |symbol: SymbolId| robot.model.parameters[symbol.0 as usize].sample;
+    let mut evaluator = Evaluator::new(graph, sample);
+    robot.model.tree.map(|expr| evaluator.value(expr))
+}
+
 /// What holds, since the robot was accepted.
-fn checks(args: &Args, robot: &Robot<'_>) -> String {
+fn checks<'g>(args: &Args, robot: &Robot<'g>, graph: &'g Graph) -> String {
     let inertias = match args.input.judges_inertias() {
+        true if !robot.model.parameters.is_empty() => {
+            "each body that moves has a possible inertia, where that is of numbers"
+        }
         true => "each body that moves has a possible inertia",
         false => "inertias were not judged",
     };
     let is_flat = robot.tree.quaternions().next().is_none();
     let at = if is_flat { "at q = 0" } else { "at the neutral q" };
-    let definite = match Cholesky::of(&Oracle::new(&robot.tree).mass_matrix(&State::neutral(robot).q)) {
-        Some(_) => format!("M(q) is positive definite {at}"),
-        None => format!("M(q) is NOT positive definite {at}: forward dynamics has no meaning there"),
-    };
+    let of = if robot.model.parameters.is_empty() { "" } else { ", for one choice of the fields" };
+    let at = format!("{at}{of}");
+    let definite =
+        match Cholesky::of(&Oracle::new(&sample(robot, graph)).mass_matrix(&State::neutral(robot).q)) {
+            Some(_) => format!("M(q) is positive definite {at}"),
+            None => format!("M(q) is NOT positive definite {at}: forward dynamics has no meaning there"),
+        };
     let methods = &robot.compiled.methods;
     let compared = methods.iter().filter(|method| matches!(method.plan, Plan::StraightLine { .. })).count();
     let all = methods.len();
@@ -274,13 +324,14 @@ pub(crate) fn placed(notes: &[Note], input: &Input) -> Vec<String> {
         Place::Tokens { .. } => (0, 0),
     });
     let line = |note: &&Note| {
-        let place = match &note.place {
-            Place::Text { file, line, column } => format!("{file}:{line}:{column}: "),
-            Place::Tokens { .. } => {
-                input.attributes.spot(&note.place).map_or(String::new(), |spot| format!("{}: ", spot.file))
-            }
+        let spot = input.spot(&note.place);
+        let place = match (&note.place, &spot) {
+            (Place::Text { .. }, Some(spot)) => format!("{}:{}:{}: ", spot.file, spot.line, spot.column),
+            (_, Some(spot)) if spot.file.starts_with("--") => format!("{}: ", spot.file),
+            (_, Some(spot)) => format!("{}:{}: ", spot.file, spot.line),
+            (_, None) => String::new(),
         };
-        format!("{place}{}", for_the_command_line(&note.text))
+        format!("{place}{}", input.worded(&note.text, spot.as_ref()))
     };
     notes.iter().map(line).collect()
 }

@@ -24,7 +24,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
-    let robot = Robot::of(&input, &graph, Wanted::All)?;
+    let robot = Robot::with_fields(&input, &graph, Wanted::All, &[])?;
     let (of_robot, of_frames): (Vec<_>, Vec<_>) =
         robot.compiled.methods.iter().partition(|compiled| Method::OF_ROBOT.contains(&compiled.method));
     let row = |compiled: &&CompiledMethod<'_>| row(&robot, compiled);

@@ -3,11 +3,10 @@
 use std::ops::Range;
 use std::process::ExitCode;
 
-use dynamics_codegen::diagnostics::{Diagnostic, Diagnostics, Place};
+use dynamics_codegen::diagnostics::{Diagnostic, Diagnostics};
 
 use crate::input::Input;
 use crate::render::{self, line_of, span_at};
-use crate::wording::for_the_command_line;
 
 /// What ends a command.
 pub(crate) enum Failure {
@@ -75,16 +74,11 @@ impl Problem {
 impl Problem {
     /// A mistake that the compiler found in what was given.
     fn of(found: &Diagnostic, input: &Input) -> Self {
-        let spot = match &found.place {
-            Place::Tokens { .. } => input.attributes.spot(&found.place),
-            Place::Text { file, line, column } => {
-                Some(Spot::in_text(&**file, &input.text, *line as usize, *column as usize))
-            }
-        };
+        let spot = input.spot(&found.place);
         Self {
-            title: for_the_command_line(&found.message),
+            title: input.worded(&found.message, spot.as_ref()),
+            help: Some(input.worded(found.help_text(), spot.as_ref())),
             spot: spot.map(Box::new),
-            help: Some(for_the_command_line(found.help_text())),
             code: Some(found.code.to_string()),
         }
     }

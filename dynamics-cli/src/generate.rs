@@ -5,13 +5,16 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum;
 use dynamics_codegen::emit::c::{PREFIX_LIMIT, Real, check_prefix};
 use dynamics_codegen::model::names::{hides_a_common_name, snake_case, upper_camel_case};
-use dynamics_codegen::{generate_c, generate_urdf, read_urdf};
+use dynamics_codegen::spec::RobotSpec;
+use dynamics_codegen::spec::urdf::Report;
+use dynamics_codegen::{generate_c, generate_rust};
 
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, InputArgs, name_of, shown};
 use crate::output::{failed, print, writer};
 use crate::progress::Progress;
 use crate::robot::NAME;
+use crate::rust_item;
 
 /// Write the code of a robot: a file to commit and to include by `mod`, or a header and a source in C99
 #[derive(clap::Args)]
@@ -88,15 +91,19 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             attributes.add("outputs", "#[dynamics(outputs(", outputs, "))]");
         }
     })?;
+    let (mut spec, report) = input.spec(&[])?;
     let name = match given {
         Some(name) => name.to_owned(),
-        None => name_in_file(&input, args.lang)?,
+        None => name_in_file(&report, args.lang),
     };
+    if args.lang == Language::Rust {
+        spec.ident = syn::Ident::new(&name, spec.ident.span());
+    }
     let files = {
         let _progress = Progress::of(&format!("generating {name}"));
         match args.lang {
-            Language::Rust => vec![File { path: args.output.clone(), text: rust(args, &input, &name)? }],
-            Language::C => c(args, &input, &name)?,
+            Language::Rust => vec![File { path: args.output.clone(), text: rust(args, &input, &spec)? }],
+            Language::C => c(args, &input, &spec, &name)?,
         }
     };
     for File { path, text } in &files {
@@ -125,19 +132,17 @@ fn checked(name: &str, lang: Language) -> Result<&str, Failure> {
 }
 
 /// The robot's name as that of a type or a prefix, if it can be one.
-fn name_in_file(input: &Input, lang: Language) -> Result<String, Failure> {
-    let read = read_urdf(NAME, input.urdf(), &input.attributes.text());
-    let (_, report) = read.map_err(|found| Failure::mistakes(found, input))?;
+fn name_in_file(report: &Report, lang: Language) -> String {
     let name = report.robot.as_deref().unwrap_or_default();
     if lang == Language::C {
         let letter = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
         let mut prefix: String = snake_case(name).chars().filter(letter).take(PREFIX_LIMIT).collect();
         prefix.truncate(prefix.trim_end_matches('_').len());
-        return Ok(if check_prefix(&prefix).is_ok() { prefix } else { NAME.to_lowercase() });
+        return if check_prefix(&prefix).is_ok() { prefix } else { NAME.to_lowercase() };
     }
     let name = upper_camel_case(name);
     let fits = syn::parse_str::<syn::Ident>(&name).is_ok() && !hides_a_common_name(&name);
-    Ok(if fits { name } else { NAME.to_owned() })
+    if fits { name } else { NAME.to_owned() }
 }
 
 /// What stands first in a file: what it was made from, and how to make it again.
@@ -161,18 +166,17 @@ fn options(args: &Args, input: &Input, name: &str) -> String {
         (Language::C, Scalar::Float) => "c --scalar float",
         (Language::C, Scalar::Double) => "c --scalar double",
     };
-    format!(" --lang {lang} --name {name}{}", input.attributes.flags())
+    format!(" --lang {lang} --name {name}{}", input.flags())
 }
 
 /// The header and the source.
-fn c(args: &Args, input: &Input, name: &str) -> Result<Vec<File>, Failure> {
+fn c(args: &Args, input: &Input, spec: &RobotSpec, name: &str) -> Result<Vec<File>, Failure> {
     let wrong = |found| Failure::mistakes(found, input);
-    let (spec, _) = read_urdf(NAME, input.urdf(), &input.attributes.text()).map_err(wrong)?;
     let real = match args.scalar {
         Scalar::Float => Real::Float,
         Scalar::Double => Real::Double,
     };
-    let written = generate_c(&spec, name, real, &origin(args, input, name)).map_err(wrong)?;
+    let written = generate_c(spec, name, real, &origin(args, input, name)).map_err(wrong)?;
     for left in &written.left_out {
         eprintln!("left out: `{}`, for which the robot is too large", left.function);
     }
@@ -187,18 +191,24 @@ fn c(args: &Args, input: &Input, name: &str) -> Result<Vec<File>, Failure> {
     Ok(vec![file("h", written.header), file("c", written.source)])
 }
 
-fn rust(args: &Args, input: &Input, name: &str) -> Result<String, Failure> {
-    let wrong = |found| Failure::mistakes(found, input);
-    let code = generate_urdf(name, input.urdf(), &input.attributes.text()).map_err(wrong)?;
-    let [made, again] = origin(args, input, name);
+fn rust(args: &Args, input: &Input, spec: &RobotSpec) -> Result<String, Failure> {
+    let spec = RobotSpec { vis: syn::parse_quote!(pub), ..spec.clone() };
+    let name = spec.ident.to_string();
+    let [made, again] = origin(args, input, &name);
     let file = file_name(args);
+    let item = match input.item() {
+        Some(item) => rust_item::written(&input.text, item, &spec),
+        None => format!(
+            "/// The robot of `{file}`: its methods are those of the traits of `dynamics_core`.\n\
+             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]\n\
+             pub struct {name};\n"
+        ),
+    };
+    let code = generate_rust(&spec).map_err(|found| Failure::mistakes(found, input))?;
     Ok(format!(
         "// {made}\n\
          // {again} -o …\n\
-         #![allow(unreachable_pub, reason = \"generated code\")]\n\n\
-         /// The robot of `{file}`: its methods are those of the traits of `dynamics_core`.\n\
-         #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]\n\
-         pub struct {name};\n\n{code}"
+         #![allow(unreachable_pub, reason = \"generated code\")]\n\n{item}\n{code}"
     ))
 }
 

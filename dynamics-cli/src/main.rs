@@ -3,6 +3,7 @@
 //! What it prints goes to standard output, and is the same for the same input; mistakes go to standard error. It exits
 //! with 1 if the input is wrong, and with 2 if the command line is.
 
+mod assignment;
 mod attributes;
 mod check;
 mod coordinates;
@@ -10,6 +11,7 @@ mod count;
 mod eval;
 mod explain;
 mod failure;
+mod fields;
 mod generate;
 mod input;
 mod linear;
@@ -17,10 +19,13 @@ mod motion;
 mod output;
 mod picture;
 mod progress;
+mod quantity;
 mod render;
 mod report;
 mod robot;
 mod rollouts;
+mod rust_file;
+mod rust_item;
 mod simulate;
 mod state;
 mod tree;
@@ -30,7 +35,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 
-/// Reads robots from URDF files, and turns them into their equations of motion.
+/// Reads robots from URDF files, or from structs of Rust, and turns them into their equations of motion.
 #[derive(Parser)]
 #[command(name = "dynamics", version, after_help = EXAMPLES, arg_required_else_help = true)]
 enum Command {

@@ -1,6 +1,7 @@
 //! A robot that can be asked for numbers: its programs, run by the interpreter.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use dynamics_codegen::checked;
 use dynamics_codegen::mechanics::equations::{Argument, Input as Symbol, Method};
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows, total_mass};
 use dynamics_codegen::model::{Model, Tree};
@@ -8,15 +9,15 @@ use dynamics_codegen::passes::{Compiled, Plan, RunTime};
 use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
-use dynamics_codegen::{checked, read_urdf_with};
 use proc_macro2::Span;
 
 use crate::coordinates::Coordinates;
 use crate::failure::{Failure, Problem};
+use crate::fields::unless_known;
 use crate::input::Input;
 use crate::progress::Progress;
 
-/// The name of the struct where nobody will see it.
+/// The name of a URDF's struct where nobody will see it.
 pub(crate) const NAME: &str = "Robot";
 
 /// A robot that was read, judged and compiled.
@@ -27,7 +28,7 @@ pub(crate) struct Robot<'g> {
     pub(crate) report: Report,
     /// As judged.
     pub(crate) model: Model<'g>,
-    /// In doubles, for the plain recursions.
+    /// In doubles, for the plain recursions; not of numbers where it depends on fields.
     pub(crate) tree: Tree<f64>,
     /// What its coordinates and speeds are called.
     pub(crate) coordinates: Coordinates,
@@ -58,12 +59,14 @@ pub(crate) struct State {
 }
 
 impl<'g> Robot<'g> {
-    /// Reads, judges and compiles a file.
+    /// Reads, judges and compiles a robot, for what computes: every field has a value.
     pub(crate) fn of(input: &Input, graph: &'g Graph, wanted: Wanted<'_>) -> Result<Self, Failure> {
-        Self::with_fields(input, graph, wanted, &[])
+        let robot = Self::with_fields(input, graph, wanted, &[])?;
+        unless_known(&robot.model, |_| false)?;
+        Ok(robot)
     }
 
-    /// [`of`](Self::of), with fields that the options may use. The tree is not of numbers where it depends on them.
+    /// [`of`](Self::of), where fields need no values; of a file that has none, `fields` are names that options may use.
     pub(crate) fn with_fields(
         input: &Input,
         graph: &'g Graph,
@@ -72,15 +75,14 @@ impl<'g> Robot<'g> {
     ) -> Result<Self, Failure> {
         let _progress = Progress::of(&format!("compiling {}", input.name));
         let wrong = |found| Failure::mistakes(found, input);
-        let (mut spec, report) =
-            read_urdf_with(NAME, fields, input.urdf(), &input.attributes.text()).map_err(wrong)?;
+        let (mut spec, report) = input.spec(fields)?;
         if let Wanted::Only(methods) = wanted {
             let name =
                 |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
             spec.options.outputs = Some(methods.iter().map(name).collect());
         }
         let (model, compiled) = checked(&spec, graph, RunTime::Core).map_err(wrong)?;
-        // A file has no parameters; what depends on fields is asked of programs alone.
+        // What depends on fields is asked of programs alone.
         let mut evaluator = Evaluator::new(graph, |_| f64::NAN);
         let tree = model.tree.map(|expr| evaluator.value(expr));
         let coordinates = Coordinates::of(&model);
@@ -202,7 +204,7 @@ impl State {
 
     fn read(&self, symbol: Symbol) -> f64 {
         match symbol {
-            // A file has no parameters.
+            // Who asks for numbers has none.
             Symbol::Parameter(_) => f64::NAN,
             Symbol::Argument(Argument::Q, k) => self.q[k],
             Symbol::Argument(Argument::V, k) => self.v[k],

@@ -2,7 +2,6 @@
 
 mod engine;
 mod file;
-mod quantity;
 mod study;
 mod table;
 mod tape;
@@ -19,9 +18,10 @@ use rayon::prelude::*;
 use self::engine::{Engine, LANES, Plan, Rollout};
 use self::study::{Study, Target};
 use self::table::{Format, Rows, Table};
-use self::variation::Given;
+use self::variation::{GRID, Given, VARY};
 use crate::attributes::quoted;
 use crate::failure::{Failure, Problem};
+use crate::fields::unless_known;
 use crate::input::{Input, InputArgs, shown};
 use crate::motion::FixedStep;
 use crate::progress::Progress;
@@ -110,6 +110,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let fields = fields(&given)?;
     let robot = Robot::with_fields(&input, &graph, Wanted::Only(&METHODS), &fields)?;
     let study = Study::of(&robot, &given, args.count, args.seed)?;
+    unless_known(&robot.model, |k| study.axes.iter().any(|axis| axis.target == Target::Field(k)))?;
     let mut start = State::neutral(&robot);
     state::override_by("q", &mut start.q, args.q.as_deref(), &robot.coordinates.q)?;
     state::override_by("v", &mut start.v, args.v.as_deref(), &robot.coordinates.v)?;
@@ -140,11 +141,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
 
 /// What the options say, and all mistakes in them.
 fn given(args: &Args) -> Result<Vec<Given>, Failure> {
-    let vary = args.variations.iter().map(|text| ("vary", text));
-    let grid = args.grids.iter().map(|text| ("grid", text));
+    let vary = args.variations.iter().map(|text| (&VARY, text));
+    let grid = args.grids.iter().map(|text| (&GRID, text));
     let (mut given, mut wrong) = (vec![], vec![]);
-    for (option, text) in vary.chain(grid) {
-        match Given::read(option, text) {
+    for (kind, text) in vary.chain(grid) {
+        match Given::read(kind, text) {
             Ok(read) => given.push(read),
             Err(Failure::Wrong(problems)) => wrong.extend(problems),
             Err(other) => return Err(other),
@@ -156,13 +157,13 @@ fn given(args: &Args) -> Result<Vec<Given>, Failure> {
 /// The names that stand for numbers in other options, each once.
 fn fields(given: &[Given]) -> Result<Vec<&str>, Failure> {
     let (mut fields, mut wrong) = (vec![], vec![]);
-    for given in given.iter().filter(|given| study::start(&given.name).is_none()) {
-        let name = given.name.as_str();
+    for given in given.iter().filter(|given| study::start(&given.assignment.name).is_none()) {
+        let name = given.assignment.name.as_str();
         if syn::parse_str::<syn::Ident>(name).is_err() || name == "pi" || name == "PI" {
             let title = format!("`{}` cannot stand for a number", shown(name));
             let help = "give it a name of letters, digits and `_`; coordinates and speeds at the start are `q.` and `v.` \
                         and a name";
-            wrong.push(given.wrong_name(title, help.to_owned()));
+            wrong.push(given.assignment.wrong_name(title, help.to_owned()));
         } else if !fields.contains(&name) {
             fields.push(name);
         }
@@ -186,7 +187,7 @@ fn names(robot: &Robot<'_>, study: &Study) -> (Vec<String>, Vec<String>) {
 /// How the table was made: what makes a difference to it, and nothing else.
 fn story(args: &Args, input: &Input, robot: &Robot<'_>) -> Vec<(&'static str, String)> {
     let file = args.input.file.file_name().map_or("-".to_owned(), |file| shown(&file.to_string_lossy()));
-    let mut command = format!("dynamics rollouts {}{}", quoted(&file), input.attributes.flags());
+    let mut command = format!("dynamics rollouts {}{}", quoted(&file), input.flags());
     let method = if args.method == FixedStep::Rk4 { "rk4" } else { "euler" };
     command += &format!(" --time {:?} --step {:?} --method {method}", args.time, args.step);
     let texts = [("vary", &args.variations), ("grid", &args.grids)];

@@ -25,14 +25,14 @@ pub(crate) fn draw(spec: &RobotSpec, root: &str) -> String {
     }
     carried.values_mut().for_each(|joints| joints.sort_by_key(|joint| joint.line));
     let coordinates = coordinates(spec);
-    let masses: BTreeMap<&str, f64> =
+    let masses: BTreeMap<&str, String> =
         spec.bodies.iter().filter_map(|body| Some((&*body.name.text, mass(body)?))).collect();
 
     let mut text = format!("  {WORLD}\n");
     let mut stack = branches(&carried, WORLD, 0, "  ");
     while let Some(Branch { joint, depth, left, is_last }) = stack.pop() {
         let child = joint.child.text.as_str();
-        let mass = masses.get(child).map_or(String::new(), |mass| format!("  {mass} kg"));
+        let mass = masses.get(child).map_or(String::new(), |mass| format!("  {mass}"));
         let (name, kind) = (&joint.name, joint.kind.name());
         let carrier = match (coordinates.get(child), &joint.keys.locked, &joint.keys.mimic) {
             (Some(q), ..) => format!("{name} ({kind}, {}) ─ ", entries("q", q)),
@@ -78,11 +78,14 @@ fn branches<'s>(
 }
 
 /// The mass as written, unless it is zero.
-fn mass(body: &dynamics_codegen::spec::BodySpec) -> Option<f64> {
+fn mass(body: &dynamics_codegen::spec::BodySpec) -> Option<String> {
     let of_solid = body.solid.as_ref().map(|solid| &*solid.mass);
-    match &body.mass.as_ref().or(of_solid)?.kind {
-        FormulaKind::Number(value, _) => Some(value.to_f64()).filter(|mass| *mass != 0.0),
-        _ => None,
+    let mass = body.mass.as_ref().or(of_solid)?;
+    match &mass.kind {
+        FormulaKind::Number(value, _) if value.is_zero() => None,
+        FormulaKind::Number(value, None) => Some(format!("{} kg", value.to_f64())),
+        FormulaKind::Number(value, Some(unit)) => Some(format!("{} {}", value.to_f64(), unit.name)),
+        _ => Some(mass.short_text()),
     }
 }
 

@@ -15,6 +15,8 @@ mod pictures;
 mod readme;
 #[path = "cli/rollouts.rs"]
 mod rollouts;
+#[path = "cli/rust.rs"]
+mod rust;
 #[path = "cli/simulate.rs"]
 mod simulate;
 #[path = "cli/terms.rs"]

@@ -80,10 +80,31 @@ pub fn generate_with(
     input: &syn::DeriveInput,
     read: impl FnOnce(&str) -> Result<Vec<u8>, String>,
 ) -> Result<String, Diagnostics> {
+    let (spec, _) = read_struct(input, read)?;
+    let code = generate_rust(&spec)?;
+    let Some(path) = &spec.options.urdf else { return Ok(code) };
+    // The path is one of the crate: absolute, the code would differ from machine to machine.
+    let tracked = format!(
+        "const _: &[u8] = ::core::include_bytes!(::core::concat!(::core::env!(\"CARGO_MANIFEST_DIR\"), {:?}));\n",
+        format!("/{}", path.text)
+    );
+    Ok(code + &tracked)
+}
+
+/// The robot of a struct as it was written, and what became of the file that it names, if it names one: that is had from
+/// `read`.
+///
+/// # Errors
+///
+/// All mistakes in the attributes, or in the file.
+pub fn read_struct(
+    input: &syn::DeriveInput,
+    read: impl FnOnce(&str) -> Result<Vec<u8>, String>,
+) -> Result<(RobotSpec, Option<Report>), Diagnostics> {
     let mut diags = Diagnostics::new();
     let mut spec = spec::parse(input, &mut diags); //            what was written
     diags.check()?;
-    let Some(path) = spec.options.urdf.clone() else { return compile(&spec) };
+    let Some(path) = spec.options.urdf.clone() else { return Ok((spec, None)) };
     let checked = spec::urdf::check_path(&path);
     let bytes = checked.and_then(|()| {
         read(&path.text).map_err(|why| {
@@ -91,18 +112,14 @@ pub fn generate_with(
             Diagnostic::new(Code::FileUnreadable, &path.place, message)
         })
     });
+    let mut report = None;
     if let Some(bytes) = diags.keep(bytes)
         && let Some(text) = diags.keep(spec::urdf::text_of(&path.text, &bytes))
     {
-        spec::urdf::read(&mut spec, Urdf { file: &path.text, text }, &mut diags);
+        report = Some(spec::urdf::read(&mut spec, Urdf { file: &path.text, text }, &mut diags));
     }
     diags.check()?;
-    // The path is one of the crate: absolute, the code would differ from machine to machine.
-    let tracked = format!(
-        "const _: &[u8] = ::core::include_bytes!(::core::concat!(::core::env!(\"CARGO_MANIFEST_DIR\"), {:?}));\n",
-        format!("/{}", path.text)
-    );
-    Ok(compile(&spec)? + &tracked)
+    Ok((spec, report))
 }
 
 /// The robot of a URDF as it was written, for a public unit struct `name`, and what became of the file. `attributes`
@@ -127,7 +144,7 @@ pub fn read_urdf_with(
     attributes: &str,
 ) -> Result<(RobotSpec, Report), Diagnostics> {
     let mut diags = Diagnostics::new();
-    let (ident, attributes) = (diags.keep(identifier(name)), diags.keep(attributes_of(attributes)));
+    let (ident, attributes) = (diags.keep(identifier(name)), diags.keep(read_attributes(attributes)));
     let idents: Vec<_> = fields.iter().filter_map(|field| diags.keep(identifier(field))).collect();
     diags.check()?;
     let (Some(ident), Some(attributes)) = (ident, attributes) else { return Err(diags) };
@@ -154,8 +171,12 @@ fn identifier(name: &str) -> Result<syn::Ident, Diagnostic> {
     Ok(ident)
 }
 
-/// Attributes as written.
-fn attributes_of(text: &str) -> Result<Vec<syn::Attribute>, Diagnostic> {
+/// Attributes as they stand on a struct.
+///
+/// # Errors
+///
+/// What is no attribute in the text.
+pub fn read_attributes(text: &str) -> Result<Vec<syn::Attribute>, Diagnostic> {
     let wrong = |error: syn::Error| Diagnostic::new(Code::Syntax, &error.span().into(), error.to_string());
     let tokens: TokenStream = text.parse().map_err(|error: proc_macro2::LexError| wrong(error.into()))?;
     check_nesting(&tokens)?;
@@ -179,11 +200,15 @@ fn check_nesting(tokens: &TokenStream) -> Result<(), Diagnostic> {
 /// All mistakes of the first phase that found any.
 pub fn generate_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<String, Diagnostics> {
     let (spec, _) = read_urdf(name, urdf, attributes)?;
-    compile(&spec)
+    generate_rust(&spec)
 }
 
-/// The code for a robot.
-fn compile(spec: &RobotSpec) -> Result<String, Diagnostics> {
+/// The code for a robot that was read: all but its struct.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+pub fn generate_rust(spec: &RobotSpec) -> Result<String, Diagnostics> {
     let graph = Graph::new();
     let (model, compiled) = checked(spec, &graph, RunTime::Core)?;
     let item = emit::rust::Item::of(spec, &model);

@@ -14,14 +14,14 @@ pub(super) fn put(page: Page, subject: &Subject<'_, '_>) -> Page {
         "{}: {}, {}.",
         check::freedom(robot),
         check::counted(robot.report.links, "link", "links"),
-        check::joints(&robot.spec, robot.report.joints)
+        check::joints(subject.input, &robot.spec, robot.report.joints)
     );
-    let flags = subject.input.attributes.flags();
+    let flags = subject.input.flags();
     let beside = if flags.is_empty() { String::new() } else { format!(" with `{}`", flags.trim_start()) };
     let second = format!(
         "It weighs {}; {}; {}. Read from `{}`{beside}.",
         check::mass(robot),
-        check::base(robot),
+        check::base(subject.input, robot),
         check::parameters(robot),
         file(subject)
     );

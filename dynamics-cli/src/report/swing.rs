@@ -6,7 +6,7 @@ use dynamics_view::page::{Section, number};
 
 use super::Subject;
 use crate::failure::Failure;
-use crate::motion::stepped;
+use crate::motion::{FixedStep, Mover};
 use crate::picture::charts::parts;
 use crate::picture::{Moment, thinned};
 use crate::robot::{Robot, State};
@@ -85,13 +85,12 @@ impl Swing {
         // What the picture shows 60 times a second need not be kept a thousand times.
         let stride = (1.0 / (240.0 * step)).floor().max(1.0) as u64;
         let mut swing = Self { moments: vec![moment(robot, 0.0, &start)?], beyond: vec![], end: End::Time };
-        let mut state = start;
+        let mut mover = Mover::fixed(robot, start, FixedStep::Rk4);
         for k in 1..=clock.steps {
             let (before, now) = (clock.at(k - 1), clock.at(k));
-            let next = stepped(robot, &state, now - before);
-            let next = next.and_then(|next| Ok((moment(robot, now, &next)?, next)));
-            let (seen, next) = match next {
-                Ok(next) => next,
+            let moved = mover.advance([before, now], time).map_err(|(failure, _)| failure);
+            let seen = match moved.and_then(|()| moment(robot, now, mover.state())) {
+                Ok(seen) => seen,
                 Err(Failure::Wrong(problems)) => {
                     let why = problems.into_iter().next().map_or(String::new(), |problem| problem.title);
                     swing.end = End::Lost { why };
@@ -99,7 +98,7 @@ impl Swing {
                 }
                 Err(failure) => return Err(failure),
             };
-            let is_beyond = |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&next.q[part.q]);
+            let is_beyond = |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&seen.state.q[part.q]);
             for (_, part) in bounded.iter().filter(is_beyond) {
                 match part.measure {
                     Measure::Distance => swing.end = End::Stop { joint: part.name.clone() },
@@ -115,7 +114,6 @@ impl Swing {
             if k % stride == 0 || k == clock.steps {
                 swing.moments.push(seen);
             }
-            state = next;
         }
         Ok(swing)
     }

@@ -6,10 +6,11 @@ use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
 
-use super::quantity::Exponents;
 use super::variation::{Distribution, Given, Values};
 use crate::failure::{Failure, Problem};
+use crate::fields;
 use crate::input::shown;
+use crate::quantity::Exponents;
 use crate::robot::Robot;
 
 /// What a value is given to.
@@ -51,11 +52,11 @@ impl Study {
             let found = target(robot, given).map_err(Failure::from);
             match found.and_then(|(target, unit)| Ok((target, given.values(unit)?))) {
                 Ok((target, _)) if axes.iter().any(|axis| axis.target == target) => {
-                    let title = format!("`{}` is given values twice", given.name);
-                    wrong.push(given.wrong_name(title, "keep one of the two".to_owned()));
+                    let title = format!("`{}` is given values twice", given.assignment.name);
+                    wrong.push(given.assignment.wrong_name(title, "keep one of the two".to_owned()));
                 }
                 Ok((target, values)) => {
-                    axes.push(Axis { name: given.name.clone(), target, values, stride: 1 });
+                    axes.push(Axis { name: given.assignment.name.clone(), target, values, stride: 1 });
                 }
                 Err(Failure::Wrong(problems)) => wrong.extend(problems),
                 Err(other) => return Err(other),
@@ -122,7 +123,7 @@ impl Study {
             let value = self.value(k, rollout);
             let title = format!("the mass `{}` is {value:?} kg in rollout {rollout}", axis.name);
             let help = "give masses of 0 or more; `uniform` and `loguniform` have bounds, `normal` has none";
-            return Err(given.wrong_values(title, help).into());
+            return Err(given.assignment.wrong_value(title, help).into());
         }
         Ok(())
     }
@@ -142,15 +143,21 @@ pub(super) fn start(name: &str) -> Option<(char, &str)> {
 
 /// What an option names, and its unit.
 fn target(robot: &Robot<'_>, given: &Given) -> Result<(Target, Option<Exponents>), Problem> {
-    let name = given.name.as_str();
+    let name = given.assignment.name.as_str();
     let unknown = |title: String, known: &[String], otherwise: String| {
         let meant =
             did_you_mean(start(name).map_or(name, |(_, rest)| rest), known.iter().map(String::as_str));
-        given.wrong_name(title, meant.map_or(otherwise, |meant| format!("did you mean `{meant}`?")))
+        given
+            .assignment
+            .wrong_name(title, meant.map_or(otherwise, |meant| format!("did you mean `{meant}`?")))
     };
     let Some((prefix, rest)) = start(name) else {
         let found = robot.model.parameters.iter().position(|parameter| parameter.name == name);
         let Some(found) = found else {
+            if robot.spec.known.iter().any(|(known, _)| known == name) {
+                let title = format!("`{name}` is given values twice, by `--set` as well");
+                return Err(given.assignment.wrong_name(title, "keep one of the two".to_owned()));
+            }
             let known: Vec<String> = robot.model.parameters.iter().map(|p| p.name.clone()).collect();
             let help = format!(
                 "put it where the number would be, as in --body 'load, mass = {name}'; coordinates and speeds at the \
@@ -158,9 +165,7 @@ fn target(robot: &Robot<'_>, given: &Given) -> Result<(Target, Option<Exponents>
             );
             return Err(unknown(format!("no option uses `{}`", shown(name)), &known, help));
         };
-        let exponents = robot.model.parameters[found].exponents;
-        let unit = exponents.map(|exponents| exponents.map(|exponent| exponent.to_f64().round() as i32));
-        return Ok((Target::Field(found), unit));
+        return Ok((Target::Field(found), fields::exponents(&robot.model.parameters[found])));
     };
     let names = if prefix == 'q' { &robot.coordinates.q } else { &robot.coordinates.v };
     let Some(at) = names.iter().position(|known| known == rest) else {
@@ -173,7 +178,7 @@ fn target(robot: &Robot<'_>, given: &Given) -> Result<(Target, Option<Exponents>
     }
     match coordinate_unit(robot, at) {
         Some(unit) => Ok((Target::Coordinate(at), Some(unit))),
-        None => Err(given.wrong_name(
+        None => Err(given.assignment.wrong_name(
             format!("`{name}` is a part of a quaternion, which cannot vary alone"),
             "give the orientation at the start by `--q`, and vary positions and speeds".to_owned(),
         )),

@@ -2,21 +2,19 @@
 
 use std::ops::Range;
 
-use dynamics_codegen::diagnostics::{Code, Diagnostic, Place};
+use dynamics_codegen::diagnostics::Diagnostic;
 use dynamics_codegen::spec::Formula;
 use proc_macro2::{Delimiter, Span, TokenStream, TokenTree};
 
-use super::quantity::{Exponents, value};
-use crate::failure::{Failure, Problem, Spot};
+use crate::assignment::{Assignment, Kind, columns, formula};
+use crate::failure::{Failure, Problem};
 use crate::input::shown;
+use crate::quantity::{Exponents, value};
 
 /// The value of one of the options, before it is known what its name stands for.
 pub(super) struct Given {
-    /// `vary` or `grid`.
-    option: &'static str,
-    text: String,
-    /// What is before the sign.
-    pub(super) name: String,
+    /// The name, and how to complain of it.
+    pub(super) assignment: Assignment,
     what: Written,
 }
 
@@ -50,79 +48,37 @@ pub(super) enum Values {
     Listed(Vec<f64>),
 }
 
-const FORMS: &str =
-    "write a distribution, `uniform(0, 2)`, `normal(1, 0.1)` or `loguniform(0.01, 1)`, or a number";
-const LISTS: &str = "write numbers, `0, 0.5, 1`, or so many at equal distances, `linspace(0, 1, 11)`";
+/// `--vary`
+pub(super) const VARY: Kind = Kind {
+    option: "vary",
+    example: "--vary 'payload = uniform(0, 2)'",
+    forms: "write a distribution, `uniform(0, 2)`, `normal(1, 0.1)` or `loguniform(0.01, 1)`, or a number",
+};
 
-/// What may stand behind the sign.
-fn forms(option: &str) -> &'static str {
-    if option == "vary" { FORMS } else { LISTS }
-}
+/// `--grid`
+pub(super) const GRID: Kind = Kind {
+    option: "grid",
+    example: "--grid 'payload = 0, 0.5, 1'",
+    forms: "write numbers, `0, 0.5, 1`, or so many at equal distances, `linspace(0, 1, 11)`",
+};
 
 impl Given {
     /// Reads an option.
-    pub(super) fn read(option: &'static str, text: &str) -> Result<Self, Failure> {
-        let text = text.replace(['\n', '\r'], " ");
-        let example = match option {
-            "vary" => "--vary 'payload = uniform(0, 2)'",
-            _ => "--grid 'payload = 0, 0.5, 1'",
-        };
-        let (Some((before, _)), end) = (text.rsplit_once('='), text.chars().count()) else {
-            let problem = Problem::new(format!("`--{option}` has no `=`"));
-            return Err(spotted(problem, option, &text, 0..text.chars().count())
-                .help(format!("write a name and its values: {example}"))
-                .into());
-        };
-        let name = before.trim().to_owned();
-        let columns = before.chars().count() + 1;
-        if name.is_empty() {
-            let problem = Problem::new(format!("`--{option}` has no name before the `=`"));
-            return Err(spotted(problem, option, &text, 0..columns)
-                .help(format!("name what varies: {example}"))
-                .into());
-        }
-        // With as many columns before it, so that what is wrong is found again.
-        let padded: String = " ".repeat(columns) + &text.chars().skip(columns).collect::<String>();
-        let help = forms(option);
-        let Ok(tokens) = padded.parse::<TokenStream>() else {
-            let problem = Problem::new(format!("`--{option}` has a bracket or a quote without its partner"));
-            return Err(spotted(problem, option, &text, columns..end).help("close what is opened").into());
-        };
-        let tokens: Vec<TokenTree> = tokens.into_iter().collect();
-        if tokens.is_empty() {
-            let problem = Problem::new(format!("`{}` is given no value", shown(&name)));
-            return Err(spotted(problem, option, &text, 0..end).help(help).into());
-        }
-        let read = if option == "vary" { drawn(&tokens) } else { listed(&tokens) };
+    pub(super) fn read(kind: &'static Kind, text: &str) -> Result<Self, Failure> {
+        let assignment = Assignment::read(kind, text)?;
+        let tokens = &assignment.tokens;
+        let read = if kind.option == VARY.option { drawn(tokens) } else { listed(tokens) };
         match read {
-            Ok(what) => Ok(Self { option, text, name, what }),
-            Err(Wrong::Of(found)) => Err(problem_of(&found, option, &text).into()),
-            Err(Wrong::Form(message, range)) => {
-                let range = range.unwrap_or(columns..end);
-                Err(spotted(Problem::new(message), option, &text, range).help(help).into())
-            }
+            Ok(what) => Ok(Self { assignment, what }),
+            Err(Wrong::Of(found)) => Err(assignment.wrong(&found).into()),
+            Err(Wrong::Form(message, range)) => Err(assignment.wrong_form(message, range).into()),
         }
-    }
-
-    /// A mistake that is about the name.
-    pub(super) fn wrong_name(&self, title: String, help: String) -> Problem {
-        let start = self.text.chars().take_while(|c| c.is_whitespace()).count();
-        let range = start..start + self.name.chars().count();
-        spotted(Problem::new(title), self.option, &self.text, range).help(help)
-    }
-
-    /// A mistake that is about the values.
-    pub(super) fn wrong_values(&self, title: String, help: &str) -> Problem {
-        let end = self.text.chars().count();
-        let behind = self.text.rsplit_once('=').map_or("", |(_, behind)| behind);
-        let start = end - behind.trim_start().chars().count();
-        spotted(Problem::new(title), self.option, &self.text, start..end).help(help)
     }
 
     /// The values in SI units, where those of a quantity of this unit are wanted.
     pub(super) fn values(&self, unit: Option<Exponents>) -> Result<Values, Failure> {
         let of = |formula: &Formula| {
-            value(formula, unit, &self.name).map_err(|found| problem_of(&found, self.option, &self.text))
+            value(formula, unit, &self.assignment.name).map_err(|found| self.assignment.wrong(&found))
         };
         let both = |[a, b]: &[Formula; 2]| Ok::<_, Problem>([of(a)?, of(b)?]);
         match &self.what {
@@ -161,7 +117,7 @@ impl Given {
             ),
             _ => return Ok(()),
         };
-        Err(self.wrong_values(title, help).into())
+        Err(self.assignment.wrong_value(title, help).into())
     }
 }
 
@@ -266,43 +222,19 @@ fn split(tokens: TokenStream) -> Vec<Vec<TokenTree>> {
     parts
 }
 
-fn formula(tokens: &[TokenTree], around: Span) -> Result<Formula, Diagnostic> {
-    Formula::read(tokens.iter().cloned().collect(), around)
-}
-
-fn columns(span: Span) -> Option<Range<usize>> {
-    let (start, end) = (span.start(), span.end());
-    (start.line == 1 && end.column > start.column).then_some(start.column..end.column)
-}
-
-/// A mistake that the compiler has a word for.
-fn problem_of(found: &Diagnostic, option: &'static str, text: &str) -> Problem {
-    let range = match &found.place {
-        Place::Tokens { start, end } => columns(*start).zip(columns(*end)).map(|(a, b)| a.start..b.end),
-        Place::Text { .. } => None,
-    };
-    let problem = Problem { code: Some(found.code.to_string()), ..Problem::new(found.message.clone()) };
-    let problem = spotted(problem, option, text, range.unwrap_or(0..text.chars().count()));
-    // The catalogue's help is about attributes.
-    problem.help(if found.code == Code::Syntax { forms(option) } else { found.help_text() })
-}
-
-fn spotted(problem: Problem, option: &str, text: &str, characters: Range<usize>) -> Problem {
-    Problem { spot: Some(Spot::in_line(format!("--{option}"), text, characters).into()), ..problem }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Distribution, Given, Values};
+    use super::{Distribution, GRID, Given, VARY, Values};
     use crate::failure::Failure;
 
-    fn values(option: &'static str, text: &str, unit: Option<[i32; 3]>) -> Result<Values, String> {
+    fn values(option: &str, text: &str, unit: Option<[i32; 3]>) -> Result<Values, String> {
         let title = |failure| match failure {
             Failure::Wrong(problems) => problems.into_iter().map(|problem| problem.title).collect::<String>(),
             Failure::CommandLine(problem) => problem.title,
             Failure::PipeClosed => String::new(),
         };
-        Given::read(option, text).and_then(|given| given.values(unit)).map_err(title)
+        let kind = if option == "vary" { &VARY } else { &GRID };
+        Given::read(kind, text).and_then(|given| given.values(unit)).map_err(title)
     }
 
     #[test]

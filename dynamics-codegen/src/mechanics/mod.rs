@@ -8,6 +8,7 @@ pub mod closed;
 pub mod columns;
 pub mod composite;
 pub mod coupling;
+pub mod derivation;
 pub mod energy;
 pub mod equations;
 pub mod factor;

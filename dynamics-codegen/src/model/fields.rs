@@ -13,7 +13,7 @@ use crate::symbolic::{Number, SymbolId};
 /// The type that all fields in use have.
 pub(super) fn field_type(spec: &RobotSpec, values: &Values, diags: &mut Diagnostics) -> Option<FieldType> {
     let mut common: Option<(&Field, FieldType)> = None;
-    for field in values.used().map(|field| &spec.fields[field]) {
+    for field in values.inputs().map(|field| &spec.fields[field]) {
         let Some(own) = diags.keep(type_of(field, spec)) else { continue };
         match &common {
             None => common = Some((field, own)),
@@ -84,7 +84,7 @@ pub(super) fn parameters(values: &Values, units: &Units, slots: &[Slot]) -> Vec<
             exponents: unit,
         }
     };
-    values.used().enumerate().map(parameter).collect()
+    values.inputs().enumerate().map(parameter).collect()
 }
 
 /// A value for the parameter `k`: distinct, of the size robots have, and such that inertias obey the triangle

@@ -18,8 +18,8 @@ pub(super) struct Values<'s, 'g> {
     fields: &'s [Field],
     /// For look-up only.
     by_name: FxHashMap<&'s str, usize>,
-    /// The inputs, of the fields that are used.
-    symbols: Vec<Option<Expr<'g>>>,
+    /// What stands for each field that is used: an input, or its number.
+    used: Vec<Option<Expr<'g>>>,
     joints: &'s [JointSpec],
     /// For look-up only.
     joint_by_name: FxHashMap<&'s str, usize>,
@@ -48,14 +48,18 @@ impl<'s, 'g> Values<'s, 'g> {
             });
         }
         let mut count = 0;
-        let symbols = used.iter().map(|used| {
-            used.then(|| {
-                count += 1;
-                graph.symbol(SymbolId(count - 1))
+        let number = |field: &Field| spec.known.iter().find(|(name, _)| *name == field.name.text);
+        let used = fields.iter().zip(used).map(|(field, used)| {
+            used.then(|| match number(field) {
+                Some((_, number)) => Expr::Constant(*number),
+                None => {
+                    count += 1;
+                    graph.symbol(SymbolId(count - 1))
+                }
             })
         });
         let joint_by_name = spec.joints.iter().enumerate().map(|(k, joint)| (&*joint.name.text, k)).collect();
-        Self { fields, symbols: symbols.collect(), by_name, joints: &spec.joints, joint_by_name }
+        Self { fields, used: used.collect(), by_name, joints: &spec.joints, joint_by_name }
     }
 
     /// The joint of a name that is no field.
@@ -88,9 +92,14 @@ impl<'s, 'g> Values<'s, 'g> {
         Some(if *kind.turns().get(index)? { [0, 0, seconds] } else { [0, 1, seconds] })
     }
 
-    /// The fields that are used, in order of declaration, as their positions among all fields.
-    pub(super) fn used(&self) -> impl Iterator<Item = usize> {
-        self.symbols.iter().enumerate().filter_map(|(field, symbol)| symbol.map(|_| field))
+    /// The fields that are inputs, in order of declaration, as their positions among all fields.
+    pub(super) fn inputs(&self) -> impl Iterator<Item = usize> {
+        let is_input = |value: &Expr<'g>| value.as_number().is_none();
+        self.used
+            .iter()
+            .enumerate()
+            .filter(move |(_, used)| used.as_ref().is_some_and(is_input))
+            .map(|(field, _)| field)
     }
 
     /// The position of a field.
@@ -130,7 +139,7 @@ impl<'s, 'g> Values<'s, 'g> {
 
     fn name(&self, name: &Name) -> Result<Expr<'g>> {
         match self.field(name) {
-            Some(field) => self.symbols[field].ok_or_else(|| unknown_field(self.fields, name)),
+            Some(field) => self.used[field].ok_or_else(|| unknown_field(self.fields, name)),
             None if is_pi(name) => Ok(Expr::Constant(Number::PI)),
             None => Err(unknown_field(self.fields, name)),
         }

@@ -38,6 +38,7 @@ use joint::JointLine;
 use syn::spanned::Spanned;
 
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
+use crate::symbolic::Number;
 
 /// A name as written; the prefix of a raw identifier is not part of it.
 #[derive(Clone, Debug)]
@@ -85,6 +86,8 @@ pub struct RobotSpec {
     pub generics: syn::Generics,
     /// The struct's fields; none of a unit struct.
     pub fields: Vec<Field>,
+    /// Fields that are numbers already, in SI units: as if these were written wherever their names are. A derive has none.
+    pub known: Vec<(String, Number)>,
     /// `#[dynamics(…)]`
     pub options: Options,
     /// `#[joint(…)]`, in order.
@@ -111,6 +114,7 @@ pub fn parse(input: &syn::DeriveInput, diags: &mut Diagnostics) -> RobotSpec {
         vis: input.vis.clone(),
         generics: input.generics.clone(),
         fields: fields(input, diags),
+        known: vec![],
         options: Options::default(),
         joints: vec![],
         amendments: vec![],

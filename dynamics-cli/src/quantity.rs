@@ -5,14 +5,19 @@ use dynamics_codegen::spec::{Formula, FormulaKind, Function};
 use dynamics_codegen::symbolic::Number;
 
 /// The exponents of kg, m and s.
-pub(super) type Exponents = [i32; 3];
+pub(crate) type Exponents = [i32; 3];
 
 /// A value, in SI units, and of which: nothing if it takes the unit of its place, as a bare number does.
 type Value = (Number, Option<Exponents>);
 
 /// The value of a formula without fields, in SI units, where `unit` is wanted; nothing is wanted of what has none that
 /// is known.
-pub(super) fn value(formula: &Formula, unit: Option<Exponents>, place: &str) -> Result<f64, Diagnostic> {
+pub(crate) fn value(formula: &Formula, unit: Option<Exponents>, place: &str) -> Result<f64, Diagnostic> {
+    number(formula, unit, place).map(Number::to_f64)
+}
+
+/// The same, exactly.
+pub(crate) fn number(formula: &Formula, unit: Option<Exponents>, place: &str) -> Result<Number, Diagnostic> {
     let (value, own) = of(formula)?;
     if let (Some(own), Some(unit)) = (own, unit)
         && own != unit
@@ -22,8 +27,7 @@ pub(super) fn value(formula: &Formula, unit: Option<Exponents>, place: &str) -> 
         let wrong = Diagnostic::new(Code::UnitMismatch, &formula.place, message);
         return Err(wrong.help(format!("give a number, which is in {}, or another unit", text(unit))));
     }
-    let value = value.to_f64();
-    if value.is_finite() { Ok(value) } else { Err(out_of_range(formula)) }
+    if value.to_f64().is_finite() { Ok(value) } else { Err(out_of_range(formula)) }
 }
 
 fn of(formula: &Formula) -> Result<Value, Diagnostic> {
@@ -109,7 +113,7 @@ fn out_of_range(formula: &Formula) -> Diagnostic {
 }
 
 /// A unit as text.
-pub(super) fn text(exponents: Exponents) -> String {
+pub(crate) fn text(exponents: Exponents) -> String {
     let power = |(symbol, exponent): (&str, &i32)| match exponent.abs() {
         0 => None,
         1 => Some(symbol.to_owned()),

@@ -1,0 +1,164 @@
+//! A document for a terminal.
+
+use dynamics_codegen::closed::Notation;
+
+use super::document::{Block, Piece, Side};
+
+/// Lines of words are no longer than this, and sums are broken at it.
+const WIDTH: usize = 100;
+const INDENT: &str = "    ";
+
+/// Writes a document.
+pub(super) fn written(blocks: &[Block], notation: &Notation) -> String {
+    let mut text = String::new();
+    for (k, block) in blocks.iter().enumerate() {
+        match block {
+            Block::Title(pieces) => {
+                let title = line(pieces, notation);
+                text += &format!("{title}\n{}\n", "═".repeat(width(&title)));
+            }
+            Block::Heading(title) => text += &format!("\n\n{title}\n{}\n", "─".repeat(width(title))),
+            Block::Text(pieces) => text += &format!("\n{}", filled(&line(pieces, notation), "", "")),
+            Block::List(items) => {
+                text.push('\n');
+                for item in items {
+                    text += &filled(&line(item, notation), "  • ", "    ");
+                }
+            }
+            Block::Equation(sides) => {
+                // Equations that follow each other on single lines stand together.
+                let lines = equation(sides, notation);
+                let is_joined = lines.len() == 1
+                    && matches!(blocks.get(k.wrapping_sub(1)), Some(Block::Equation(before)) if equation(before, notation).len() == 1);
+                if !is_joined {
+                    text.push('\n');
+                }
+                for line in lines {
+                    text += format!("{INDENT}{line}").trim_end();
+                    text.push('\n');
+                }
+            }
+        }
+    }
+    text
+}
+
+fn line(pieces: &[Piece], notation: &Notation) -> String {
+    let piece = |piece: &Piece| match piece {
+        Piece::Words(words) => words.clone(),
+        Piece::Name(name) => format!("`{name}`"),
+        Piece::Math(math) => math.unicode.clone(),
+        Piece::Form(form) => form.unicode(notation),
+        Piece::Vector(vector) => {
+            let entries = vector.entries().map(|(_, _, form)| form.unicode(notation));
+            format!("({})", entries.collect::<Vec<_>>().join(", "))
+        }
+    };
+    pieces.iter().map(piece).collect()
+}
+
+/// Words in lines, the first one behind `first`, the others behind `next`.
+fn filled(text: &str, first: &str, next: &str) -> String {
+    let mut lines = String::new();
+    let mut line = first.to_owned();
+    let mut is_begun = false;
+    for word in text.split(' ') {
+        if is_begun && width(&line) + 1 + width(word) > WIDTH {
+            lines += &format!("{line}\n");
+            line = next.to_owned();
+            is_begun = false;
+        }
+        if is_begun {
+            line.push(' ');
+        }
+        line += word;
+        is_begun = true;
+    }
+    lines + &line + "\n"
+}
+
+/// Sides beside each other, matrices over several lines, and sums that are too long.
+fn equation(sides: &[Side], notation: &Notation) -> Vec<String> {
+    let columns: Vec<Vec<String>> = sides.iter().map(|side| self::side(side, notation)).collect();
+    let is_flat = columns.iter().all(|column| column.len() == 1);
+    if is_flat {
+        return broken(&columns.iter().map(|column| column[0].as_str()).collect::<Vec<_>>());
+    }
+    let height = columns.iter().map(Vec::len).max().unwrap_or(1);
+    let mut lines = vec![String::new(); height];
+    for (k, column) in columns.iter().enumerate() {
+        let wide = column.iter().map(|line| width(line)).max().unwrap_or(0);
+        let above = (height - column.len()) / 2;
+        for (row, line) in lines.iter_mut().enumerate() {
+            let sign = match (k, row == (height - 1) / 2) {
+                (0, _) => "",
+                (_, true) => " = ",
+                (_, false) => "   ",
+            };
+            let part = row.checked_sub(above).and_then(|row| column.get(row)).map_or("", String::as_str);
+            *line += sign;
+            *line += part;
+            line.extend(std::iter::repeat_n(' ', wide - width(part)));
+        }
+    }
+    lines
+}
+
+fn side(side: &Side, notation: &Notation) -> Vec<String> {
+    match side {
+        Side::Math(math) => vec![math.unicode.clone()],
+        Side::Form(form) => vec![form.unicode(notation)],
+        Side::Matrix(matrix) => matrix.unicode(notation),
+    }
+}
+
+/// Sides on one line, or each on its own, broken before signs that are in no bracket.
+fn broken(sides: &[&str]) -> Vec<String> {
+    let one = sides.join(" = ");
+    if width(&one) <= WIDTH || sides.len() < 2 {
+        return vec![one];
+    }
+    let mut lines = Vec::new();
+    let left = width(sides[0]);
+    for (k, side) in sides[1..].iter().enumerate() {
+        let head = if k == 0 { format!("{} = ", sides[0]) } else { format!("{} = ", " ".repeat(left)) };
+        let mut line = head;
+        for term in terms(side) {
+            let is_begun = width(&line) > left + 5;
+            if is_begun && width(&line) + width(&term) > WIDTH {
+                lines.push(std::mem::replace(&mut line, " ".repeat(left + 3)));
+            }
+            line += &term;
+        }
+        lines.push(line);
+    }
+    lines
+}
+
+/// The terms of a sum, each with the sign before it.
+fn terms(sum: &str) -> Vec<String> {
+    let (mut terms, mut depth) = (vec![String::new()], 0_u32);
+    let signs: Vec<char> = sum.chars().collect();
+    for (k, &c) in signs.iter().enumerate() {
+        match c {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            ' ' if depth == 0
+                && matches!(signs.get(k + 1), Some('+' | '−'))
+                && signs.get(k + 2) == Some(&' ') =>
+            {
+                terms.push(String::new());
+            }
+            _ => {}
+        }
+        if let Some(last) = terms.last_mut() {
+            last.push(c);
+        }
+    }
+    terms
+}
+
+/// How many places a text takes: dots above letters take none.
+fn width(text: &str) -> usize {
+    text.chars().filter(|c| !matches!(c, '\u{300}'..='\u{36f}')).count()
+}

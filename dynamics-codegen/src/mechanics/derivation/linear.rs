@@ -1,0 +1,50 @@
+//! The linear model about the neutral state, at rest.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+use super::Linear;
+use super::figure::neutral;
+use crate::closed::{Form, Matrix, Notation, Swelling, close};
+use crate::mechanics::equations::Inputs;
+use crate::mechanics::plain::{self, Dual};
+use crate::model::{Model, Tree};
+use crate::symbolic::{Expr, Graph};
+
+/// The linear model where all coordinates are zero, and quaternions no rotation; displacements are along speeds.
+pub(super) fn linear<'g>(
+    model: &Model<'g>,
+    graph: &'g Graph,
+    notation: &Notation,
+) -> Result<Linear, Swelling> {
+    let (tree, n) = (&model.tree, Inputs::of(model).dof);
+    let q = neutral(model);
+    let still = vec![Expr::ZERO; n];
+    let unit = |k: usize| (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect::<Vec<_>>();
+
+    let M = plain::mass_matrix(tree, &q);
+    let moved: Tree<Dual<Expr<'g>>> = tree.map(Dual::constant);
+    // What holds against gravity and springs, and how it changes along each speed.
+    let held = |direction: &[Expr<'g>]| {
+        let q = Dual::moving(&q, direction);
+        let passive = plain::passive::forces(&moved, &q, &Dual::resting(&still));
+        let gravity = plain::gravity_forces(&moved, &q);
+        gravity.into_iter().zip(passive).map(|(a, b)| a + b).collect::<Vec<_>>()
+    };
+    let along = |k: usize| held(&tree.configuration_rate(&q, &unit(k)));
+    let damped =
+        |k: usize| plain::passive::forces(&moved, &Dual::resting(&q), &Dual::moving(&still, &unit(k)));
+    let hold: Vec<Expr<'g>> = held(&vec![Expr::ZERO; q.len()]).iter().map(|force| force.value).collect();
+    let columns = |of: &dyn Fn(usize) -> Vec<Dual<Expr<'g>>>| {
+        let columns: Vec<Vec<_>> = (0..n).map(of).collect();
+        (0..n)
+            .flat_map(|i| columns.iter().map(move |column| column[i].tangent).collect::<Vec<_>>())
+            .collect::<Vec<_>>()
+    };
+    let all = [M.concat(), columns(&along), columns(&damped), hold].concat();
+    let mut forms = close(graph, &mut notation.clone(), &all).forms.into_iter();
+    let mut square = || Matrix::of_rows((0..n).map(|_| forms.by_ref().take(n).collect()).collect());
+    let (mass_matrix, stiffness, damping) = (square(), square(), square());
+    let hold = Matrix::vector(forms.collect());
+    let is_driven = |i: usize, input: &usize| if *input == i { Form::ONE } else { Form::ZERO };
+    let inputs = (0..n).map(|i| model.actuated.iter().map(|input| is_driven(i, input)).collect());
+    Ok(Linear { mass_matrix, stiffness, damping, hold, inputs: Matrix::of_rows(inputs.collect()) })
+}

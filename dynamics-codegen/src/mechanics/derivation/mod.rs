@@ -1,0 +1,185 @@
+//! The equations of motion step by step, as a lecture walks from the bodies to `Υ = M·q̈ + C·q̇ + G`.
+//!
+//! Every body has its frame at its centre of mass, in the axes that it was described in; what is written of it is in
+//! these. The steps are made from each other: `T` from the twists, `M` from the Jacobians, Christoffel's symbols from
+//! `M`, and so on. [`closed_forms`](super::closed::closed_forms) comes to the same by another road.
+//!
+//! R. Murray, Z. Li, S. Sastry, *A Mathematical Introduction to Robotic Manipulation*, CRC 1994, ch. 4.
+#![allow(non_snake_case, reason = "equations keep the field's symbols")]
+
+mod figure;
+mod linear;
+mod steps;
+#[cfg(test)]
+mod tests;
+
+use super::closed::notation;
+use crate::closed::{Form, Matrix, Notation, Swelling};
+use crate::model::{Model, Motion};
+use crate::symbolic::Graph;
+use steps::Steps;
+
+/// A robot of more degrees of freedom is not derived step by step: it would fill a book.
+pub const MOST_DOF: usize = 12;
+
+/// All steps. Each part ends where it would be too long to read.
+#[derive(Clone, Debug)]
+pub struct Derivation {
+    /// What the symbols are called: those of [`Inputs`].
+    pub notation: Notation,
+    /// The robot where its coordinates are zero.
+    pub figure: Figure,
+    /// The bodies that move and have mass, parents before children.
+    pub bodies: Result<Vec<Body>, Swelling>,
+    /// Their equations.
+    pub equations: Result<Equations, Swelling>,
+    /// The linear model about the neutral state.
+    pub linear: Result<Linear, Swelling>,
+}
+
+/// A robot in its zero configuration.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// The joints, each part of one that has several; parents before children.
+    pub joints: Vec<Joint>,
+    /// The acceleration of free fall, in the world, 3×1.
+    pub gravity: Matrix,
+}
+
+/// A joint, or a part of one, where coordinates are zero.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// Its name.
+    pub name: String,
+    /// The body that it carries; none between the parts of a joint.
+    pub body: Option<String>,
+    /// The body that carries it; none between the parts of a joint, and of the world.
+    pub parent: Option<String>,
+    /// Whether the world carries it.
+    pub is_on_world: bool,
+    /// How it moves.
+    pub motion: Motion,
+    /// Its axis in the world, 3×1.
+    pub axis: Matrix,
+    /// A point on it, 3×1.
+    pub point: Matrix,
+    /// By how much it turns or slides, if it has one degree of freedom.
+    pub coordinate: Form,
+    /// Its first coordinate.
+    pub q: usize,
+    /// Its first speed.
+    pub v: usize,
+}
+
+/// A body, from where it is to its energies.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name; it stands for all that is welded to it.
+    pub name: String,
+    /// Mass, kg.
+    pub mass: Form,
+    /// `𝓘`, 3×3, about the centre of mass.
+    pub inertia: Matrix,
+    /// `R`, 3×3: from its axes to the world's.
+    pub rotation: Matrix,
+    /// `p`, 3×1: its centre of mass in the world.
+    pub center: Matrix,
+    /// `Jᵇ`, 6×n, linear rows first.
+    pub jacobian: Matrix,
+    /// `Vᵇ = Jᵇ·v`, 6×1.
+    pub twist: Matrix,
+    /// `T = ½ Vᵇᵀ·ℳ·Vᵇ`
+    pub kinetic_energy: Form,
+    /// `V = −m·gᵀ·p`
+    pub potential_energy: Form,
+    /// `Jᵇᵀ·ℳ·Jᵇ`, n×n.
+    pub share: Matrix,
+}
+
+/// From the sum of the energies to the forces.
+#[derive(Clone, Debug)]
+pub struct Equations {
+    /// The inertias of rotors, which turn with no body, on the diagonal of M; none without rotors.
+    pub rotors: Option<Matrix>,
+    /// What the mass that stands still adds to V.
+    pub potential_at_rest: Form,
+    /// `T`
+    pub kinetic_energy: Form,
+    /// `V`
+    pub potential_energy: Form,
+    /// `L = T − V`
+    pub lagrangian: Form,
+    /// `M = Σ Jᵇᵀ·ℳ·Jᵇ`
+    pub mass_matrix: Matrix,
+    /// Christoffel's symbols that are not zero, those with j ≤ k; nothing where a speed is no rate of a coordinate.
+    pub christoffel: Option<Vec<Christoffel>>,
+    /// `C`
+    pub coriolis_matrix: Matrix,
+    /// `G`
+    pub gravity_forces: Matrix,
+    /// Lagrange's equations; nothing where a speed is no rate of a coordinate.
+    pub rows: Option<Vec<Row>>,
+    /// The forces of dampers, friction and springs on the left-hand side, nothing where nothing acts.
+    pub passive: Option<Matrix>,
+    /// `M·a + C·v + G`, and what acts passively.
+    pub forces: Matrix,
+}
+
+/// `Γ_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i)`
+#[derive(Clone, Debug)]
+pub struct Christoffel {
+    /// i, j and k, from zero.
+    pub indices: [usize; 3],
+    /// The three derivatives.
+    pub derivatives: [Form; 3],
+    /// Half of their sum.
+    pub value: Form,
+}
+
+/// A row of `d/dt ∂L/∂q̇ − ∂L/∂q = Υ`.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// `∂L/∂q̇`
+    pub momentum: Form,
+    /// `d/dt ∂L/∂q̇`
+    pub rate: Form,
+    /// `∂L/∂q`
+    pub by_coordinate: Form,
+    /// Their difference.
+    pub force: Form,
+}
+
+/// `M₀·δa + D₀·δv + K₀·δq = B·δu` about a state at rest.
+#[derive(Clone, Debug)]
+pub struct Linear {
+    /// `M` there.
+    pub mass_matrix: Matrix,
+    /// `K₀ = ∂(G + passive)/∂q`
+    pub stiffness: Matrix,
+    /// `D₀ = ∂passive/∂v`
+    pub damping: Matrix,
+    /// `G + passive` there: the forces that hold the robot.
+    pub hold: Matrix,
+    /// Which input drives which speed, n×m.
+    pub inputs: Matrix,
+}
+
+/// Derives the equations of `model`, step by step; of more than [`MOST_DOF`] degrees of freedom the figure alone.
+pub fn derivation<'g>(model: &Model<'g>, graph: &'g Graph) -> Derivation {
+    let notation = notation(model);
+    let figure = figure::figure(model, graph, &notation);
+    let steps = if model.tree.dof() > MOST_DOF { Err(Swelling) } else { Steps::new(model, graph, &notation) };
+    let (bodies, equations) = match steps {
+        Err(Swelling) => (Err(Swelling), Err(Swelling)),
+        Ok(mut steps) => {
+            let bodies = steps.bodies();
+            let equations = if bodies.is_ok() { steps.equations() } else { Err(Swelling) };
+            (bodies, equations)
+        }
+    };
+    let linear = match equations {
+        Ok(_) => linear::linear(model, graph, &notation),
+        Err(Swelling) => Err(Swelling),
+    };
+    Derivation { notation, figure, bodies, equations, linear }
+}
