@@ -33,6 +33,12 @@ pub fn sin_cos<T: Scalar>(x: T) -> (T, T) {
     x.sin_cos()
 }
 
+/// The sines and the cosines of several angles.
+#[inline(always)]
+pub fn sin_cos_each<T: Scalar, const N: usize>(x: [T; N]) -> [[T; N]; 2] {
+    T::sin_cos_each(x)
+}
+
 /// `a·b + c`, fused where the target can.
 #[inline(always)]
 pub fn madd<T: Scalar>(a: T, b: T, c: T) -> T {

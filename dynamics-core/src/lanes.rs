@@ -1,9 +1,10 @@
-//! Several numbers side by side as one scalar: `f64x4`, `f64x8`, `f32x8`, `f32x16`.
+//! Several numbers side by side as one scalar: `f64x2`, `f64x4`, `f64x8`, `f32x4`, `f32x8`, `f32x16`.
 //!
 //! Every operation acts on each lane alone and gives the bits that it gives on one float, so that the generated code
-//! of a robot, unchanged, computes four, eight or sixteen states at once. Lanes are registers where the target has
+//! of a robot, unchanged, computes two to sixteen states at once. Lanes are registers where the target has
 //! such: with `-C target-cpu=native` or the like, 256 bits on AVX, 512 on AVX-512; elsewhere several smaller ones.
 
+pub(crate) mod sines;
 mod tiles;
 
 use core::fmt;
@@ -167,11 +168,6 @@ macro_rules! lanes {
 
         impl Kernel for $name {
             #[inline(always)]
-            fn or_nan_unless_below(self, x: Self, limit: Self) -> Self {
-                Self(x.0.abs().simd_lt(limit.0).select(self.0, wide::$name::splat($float::NAN)))
-            }
-
-            #[inline(always)]
             fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self) {
                 let turns = quarter_turns.0.to_bits();
                 let one = wide::$name::splat($float::from_bits(1)).to_bits();
@@ -235,7 +231,24 @@ macro_rules! lanes {
     };
 }
 
+lanes!(f64x2: 2 x f64, 63, 2, sin_cos_double);
 lanes!(f64x4: 4 x f64, 63, 2, sin_cos_double);
 lanes!(f64x8: 8 x f64, 63, 2, sin_cos_double);
+lanes!(f32x4: 4 x f32, 31, 4, sin_cos_single);
 lanes!(f32x8: 8 x f32, 31, 4, sin_cos_single);
 lanes!(f32x16: 16 x f32, 31, 4, sin_cos_single);
+
+impl f64x2 {
+    /// A sine and a cosine turned by the quarter turns in the two lowest bits of `quarter_turns`, as [`Kernel::turn`] does.
+    #[inline(always)]
+    fn turned_apart(self, quarter_turns: f64) -> (f64, f64) {
+        let [sin, cos] = self.to_array();
+        let (own, other) = (self.0.to_bits(), wide::f64x2::new([cos, sin]).to_bits());
+        let turns = wide::f64x2::splat(quarter_turns).to_bits();
+        let odd = wide::u64x2::splat(0) - (turns & wide::u64x2::splat(1)); // all bits, or none
+        let sign = wide::f64x2::splat(-0.0).to_bits();
+        let signs = ((turns + wide::u64x2::new([0, 1])) << 62) & sign;
+        let [sin, cos] = wide::f64x2::from_bits(own ^ ((own ^ other) & odd) ^ signs).to_array();
+        (sin, cos)
+    }
+}

@@ -8,7 +8,11 @@ use core::ops::Neg;
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 pub use num_traits::{One, Zero};
 
-use crate::trigonometry::{sin_cos_f32, sin_cos_f64};
+#[cfg(feature = "simd")]
+use crate::lanes::sines::pair as sin_cos_double;
+use crate::trigonometry::sin_cos_f32;
+#[cfg(not(feature = "simd"))]
+use crate::trigonometry::sin_cos_f64 as sin_cos_double;
 
 /// Whether [`Scalar::mul_add`] of `f32` and `f64` rounds once, by one instruction.
 ///
@@ -39,6 +43,14 @@ pub trait Scalar:
     /// For `f32` and `f64` the kernels of [`trigonometry`](crate::trigonometry), which state range and error.
     fn sin_cos(self) -> (Self, Self);
 
+    /// The sines, then the cosines, of several angles: to the bit what [`sin_cos`](Self::sin_cos) gives of each.
+    ///
+    /// With feature `simd`, `f32` and `f64` compute four of them side by side.
+    #[inline(always)]
+    fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+        one_by_one(angles)
+    }
+
     /// `√self`; NaN below zero.
     ///
     /// Correctly rounded for `f32` and `f64` with feature `std` or `libm`, within 1 ulp without either.
@@ -54,6 +66,16 @@ pub trait Scalar:
     }
 }
 
+/// [`Scalar::sin_cos`] of each angle.
+#[inline(always)]
+fn one_by_one<T: Scalar, const N: usize>(angles: [T; N]) -> [[T; N]; 2] {
+    let [mut sines, mut cosines] = [angles; 2];
+    for ((sine, cosine), angle) in sines.iter_mut().zip(&mut cosines).zip(angles) {
+        (*sine, *cosine) = angle.sin_cos();
+    }
+    [sines, cosines]
+}
+
 macro_rules! impl_scalar {
     ($float:ident, $sin_cos:path, $libm_sqrt:path, $own_sqrt:path) => {
         impl Scalar for $float {
@@ -65,6 +87,14 @@ macro_rules! impl_scalar {
             #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
+            }
+
+            #[inline(always)]
+            fn sin_cos_each<const N: usize>(angles: [Self; N]) -> [[Self; N]; 2] {
+                #[cfg(feature = "simd")]
+                return crate::lanes::sines::$float(angles);
+                #[cfg(not(feature = "simd"))]
+                return one_by_one(angles);
             }
 
             #[inline(always)]
@@ -93,7 +123,7 @@ macro_rules! impl_scalar {
     };
 }
 
-impl_scalar!(f64, sin_cos_f64, libm::sqrt, crate::square_root::sqrt_f64);
+impl_scalar!(f64, sin_cos_double, libm::sqrt, crate::square_root::sqrt_f64);
 impl_scalar!(f32, sin_cos_f32, libm::sqrtf, crate::square_root::sqrt_f32);
 
 #[cfg(test)]

@@ -21,9 +21,6 @@ use crate::scalar::{FUSED, Scalar};
 
 /// What a kernel asks of a float, or of lanes of floats, beside arithmetic.
 pub(crate) trait Kernel: Scalar {
-    /// `self` where |x| < `limit`, NaN elsewhere.
-    fn or_nan_unless_below(self, x: Self, limit: Self) -> Self;
-
     /// Turns `(sin, cos)` by the quarter turns in the two lowest bits of `quarter_turns`: swaps and signs without a
     /// branch.
     fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self);
@@ -33,18 +30,14 @@ macro_rules! impl_kernel {
     ($float:ident, $sign:literal) => {
         impl Kernel for $float {
             #[inline(always)]
-            fn or_nan_unless_below(self, x: Self, limit: Self) -> Self {
-                if x.abs() < limit { self } else { $float::NAN }
-            }
-
-            #[inline(always)]
             fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self) {
-                let turns = quarter_turns.to_bits();
-                let odd = turns & 1 != 0;
-                let (s, c) = if odd { (cos, sin) } else { (sin, cos) };
+                // By bits and not by `if`, of which compilers make jumps that no core can foresee.
+                let (turns, s, c) = (quarter_turns.to_bits(), sin.to_bits(), cos.to_bits());
+                let odd = (turns & 1).wrapping_neg(); // all bits, or none
+                let swap = (s ^ c) & odd;
                 let sign_s = (turns & 2) << ($sign - 1);
                 let sign_c = (turns.wrapping_add(1) & 2) << ($sign - 1);
-                ($float::from_bits(s.to_bits() ^ sign_s), $float::from_bits(c.to_bits() ^ sign_c))
+                ($float::from_bits(s ^ swap ^ sign_s), $float::from_bits(c ^ swap ^ sign_c))
             }
         }
     };
@@ -69,28 +62,51 @@ pub fn sin_cos_f64(x: f64) -> (f64, f64) {
     sin_cos_double(x)
 }
 
+/// The sine is `r + r³·(s₀ + s₁·r² + …)` with these,
+pub(crate) const SINE: [f64; 6] = [
+    -1.666_666_666_666_663_2e-1,
+    8.333_333_333_322_49e-3,
+    -1.984_126_982_985_795e-4,
+    2.755_731_370_707_006_8e-6,
+    -2.505_076_025_340_686_3e-8,
+    1.589_690_995_211_55e-10,
+];
+/// and the cosine `1 − r²/2 + r⁴·(c₀ + c₁·r² + …)` with these.
+pub(crate) const COSINE: [f64; 6] = [
+    4.166_666_666_666_66e-2,
+    -1.388_888_888_887_411e-3,
+    2.480_158_728_947_673e-5,
+    -2.755_731_435_139_066_3e-7,
+    2.087_572_321_298_175e-9,
+    -1.135_964_755_778_819_5e-11,
+];
+
 /// [`sin_cos_f64`], in each lane.
 #[inline(always)]
 pub(crate) fn sin_cos_double<T: Kernel>(x: T) -> (T, T) {
-    const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5·2⁵²: adding it leaves the integer in the low bits
-    const LIMIT: f64 = 562_949_953_421_312.0; // 2⁴⁹
-    let rounded = madd(x, T::of(pi64::FRAC_2_PI), T::of(ROUND));
-    let r = reduce_double(x, rounded - T::of(ROUND)).or_nan_unless_below(x, T::of(LIMIT));
-
+    let (turns, r) = reduced_double(x);
     let z = r * r;
     let z2 = z * z;
-    let s12 = linear(z, 8.333_333_333_322_49e-3, -1.666_666_666_666_663_2e-1);
-    let s34 = linear(z, 2.755_731_370_707_006_8e-6, -1.984_126_982_985_795e-4);
-    let s56 = linear(z, 1.589_690_995_211_55e-10, -2.505_076_025_340_686_3e-8);
-    let c12 = linear(z, -1.388_888_888_887_411e-3, 4.166_666_666_666_66e-2);
-    let c34 = linear(z, -2.755_731_435_139_066_3e-7, 2.480_158_728_947_673e-5);
-    let c56 = linear(z, -1.135_964_755_778_819_5e-11, 2.087_572_321_298_175e-9);
-    let s = madd(z2, madd(z2, s56, s34), s12);
-    let c = madd(z2, madd(z2, c56, c34), c12);
-    let sin = madd(r * z, s, r);
-    let cos = madd(z2, c, linear(z, -0.5, 1.0));
+    let sum =
+        |[a, b, c, d, e, f]: [f64; 6]| madd(z2, madd(z2, linear(z, f, e), linear(z, d, c)), linear(z, b, a));
+    let sin = madd(r * z, sum(SINE), r);
+    let cos = madd(z2, sum(COSINE), of_halves(z));
+    T::turn(sin, cos, turns)
+}
 
-    T::turn(sin, cos, rounded)
+/// How many quarter turns are nearest to `x`, in the low bits, and what is left of it; NaN from 2⁴⁹ on.
+#[inline(always)]
+pub(crate) fn reduced_double<T: Kernel>(x: T) -> (T, T) {
+    const ROUND: f64 = 6_755_399_441_055_744.0; // 1.5·2⁵²: adding it leaves the integer in the low bits
+    const TOO_LARGE: f64 = f64::from_bits((1023 + 975) << 52); // 2⁹⁷⁵: times 2⁴⁹ infinite, times less not
+    let rounded = madd(x, T::of(pi64::FRAC_2_PI), T::of(ROUND));
+    (rounded, or_nan(reduce_double(x, rounded - T::of(ROUND)), x * T::of(TOO_LARGE)))
+}
+
+/// `1 − z/2`
+#[inline(always)]
+pub(crate) fn of_halves<T: Scalar>(z: T) -> T {
+    linear(z, -0.5, 1.0)
 }
 
 /// `r = x − k·π/2`, with π/2 in parts short enough that the first products are exact.
@@ -126,15 +142,15 @@ pub fn sin_cos_f32(x: f32) -> (f32, f32) {
 #[inline(always)]
 pub(crate) fn sin_cos_single<T: Kernel>(x: T) -> (T, T) {
     const ROUND: f64 = 12_582_912.0; // 1.5·2²³
-    const LIMIT: f64 = 1_048_576.0; // 2²⁰
+    const TOO_LARGE: f64 = f64::from_bits((1023 + 108) << 52); // 2¹⁰⁸: times 2²⁰ infinite, times less not
     let rounded = madd(x, T::of(pi32::FRAC_2_PI as f64), T::of(ROUND));
-    let r = reduce_single(x, rounded - T::of(ROUND)).or_nan_unless_below(x, T::of(LIMIT));
+    let r = or_nan(reduce_single(x, rounded - T::of(ROUND)), x * T::of(TOO_LARGE));
 
     let z = r * r;
     let s = madd(z, linear(z, -1.949_595_5e-4, 8.331_982e-3), T::of(-1.666_665_1e-1));
     let c = madd(z, linear(z, 2.443_066_1e-5, -1.388_730_1e-3), T::of(4.166_664_6e-2));
     let sin = madd(r * z, s, r);
-    let cos = madd(z * z, c, linear(z, -0.5, 1.0));
+    let cos = madd(z * z, c, of_halves(z));
 
     T::turn(sin, cos, rounded)
 }
@@ -152,6 +168,12 @@ fn reduce_single<T: Kernel>(x: T, k: T) -> T {
         const P3: f32 = f32::from_bits(0x33A2_2169);
         ((x - k * T::of(P1 as f64)) - k * T::of(P2 as f64)) - k * T::of(P3 as f64)
     }
+}
+
+/// `r`, and NaN where `size` is not finite.
+#[inline(always)]
+fn or_nan<T: Scalar>(r: T, size: T) -> T {
+    madd(size, T::zero(), r)
 }
 
 /// `slope·x + offset`, fused where the target can.

@@ -1,8 +1,9 @@
 //! Every operation on lanes gives, in each, the bits that it gives on one float.
 #![cfg(feature = "simd")]
 
-use dynamics_core::lanes::{Lanes, f32x8, f32x16, f64x4, f64x8};
+use dynamics_core::lanes::{Lanes, f32x4, f32x8, f32x16, f64x2, f64x4, f64x8};
 use dynamics_core::scalar::Scalar;
+use dynamics_core::trigonometry::{sin_cos_f32, sin_cos_f64};
 
 /// Arguments of every size and sign, and what is no number.
 fn arguments() -> impl Iterator<Item = f64> {
@@ -49,10 +50,35 @@ macro_rules! agrees_with_one_float {
     };
 }
 
+agrees_with_one_float!(f64x2_agrees_with_f64, f64x2, f64);
 agrees_with_one_float!(f64x4_agrees_with_f64, f64x4, f64);
 agrees_with_one_float!(f64x8_agrees_with_f64, f64x8, f64);
+agrees_with_one_float!(f32x4_agrees_with_f32, f32x4, f32);
 agrees_with_one_float!(f32x8_agrees_with_f32, f32x8, f32);
 agrees_with_one_float!(f32x16_agrees_with_f32, f32x16, f32);
+
+/// Angles by the number: alone, side by side, and more than are computed at a time.
+macro_rules! each_is_what_it_is_alone {
+    ($float:ident, $kernel:ident, $($n:literal)*) => {$(
+        let all: Vec<$float> = arguments().map(|x| x as $float).collect();
+        for angles in all.windows($n) {
+            let angles: [$float; $n] = *angles.first_chunk().expect("a window holds it");
+            let [sines, cosines] = Scalar::sin_cos_each(angles);
+            for ((x, s), c) in angles.into_iter().zip(sines).zip(cosines) {
+                for (sin, cos) in [$kernel(x), Scalar::sin_cos(x)] {
+                    let same = (s.to_bits(), c.to_bits()) == (sin.to_bits(), cos.to_bits());
+                    assert!(same || (s.is_nan() && sin.is_nan() && c.is_nan() && cos.is_nan()), "{x:e} among {}", $n);
+                }
+            }
+        }
+    )*};
+}
+
+#[test]
+fn sines_side_by_side_have_the_bits_of_the_kernel() {
+    each_is_what_it_is_alone!(f64, sin_cos_f64, 1 2 3 4 5 6 7 8 9);
+    each_is_what_it_is_alone!(f32, sin_cos_f32, 1 2 3 4 5 6 7 8 9);
+}
 
 /// For every number of states up to more than there are lanes.
 macro_rules! rows_become_lanes_and_rows_again {
@@ -77,8 +103,10 @@ macro_rules! rows_become_lanes_and_rows_again {
 
 #[test]
 fn rows_of_every_length_become_lanes_and_rows_again() {
+    rows_become_lanes_and_rows_again!(f64x2, f64, 0 1 2 3 4 5 7 8 9);
     rows_become_lanes_and_rows_again!(f64x4, f64, 0 1 2 3 4 5 7 8 9);
     rows_become_lanes_and_rows_again!(f64x8, f64, 0 1 2 3 4 5 7 8 9);
+    rows_become_lanes_and_rows_again!(f32x4, f32, 0 1 2 3 4 5 7 8 9);
     rows_become_lanes_and_rows_again!(f32x8, f32, 0 1 2 3 4 5 7 8 9);
     rows_become_lanes_and_rows_again!(f32x16, f32, 0 1 2 3 4 5 7 8 9);
 }

@@ -115,6 +115,11 @@ impl Statement {
         };
         names.into_iter().flatten().map(String::as_str)
     }
+
+    /// Whether it reads the statement of that number or a later one.
+    pub(super) fn reads_from(&self, first: usize) -> bool {
+        self.reads.iter().any(|&read| read >= first)
+    }
 }
 
 /// Writes a program; `wanted` are the names that its results shall have.

@@ -4,6 +4,7 @@ mod compile;
 mod factoring;
 mod hoist;
 mod latency;
+mod order;
 mod parameters;
 mod plan;
 mod program;

@@ -95,6 +95,7 @@ fn live(
         order.push(id);
     }
     order.sort_unstable_by_key(|id| id.index());
+    let order = super::order::order(graph, &order, &nodes_of(results), |id| nodes[id].made.is_some());
     for &id in &order {
         let op = nodes[id].op;
         let is_sum = matches!(op, Op::Add(..) | Op::Sub(..));

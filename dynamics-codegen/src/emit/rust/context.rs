@@ -14,6 +14,9 @@ use crate::passes::Sizes;
 /// The most statements in one block.
 const BLOCK: usize = 250;
 
+/// The most sines in one call: what the run time computes side by side.
+const SINES: usize = 4;
+
 /// How constants are written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Literals {
@@ -81,9 +84,7 @@ impl Language for Context<'_> {
         let mut lines = String::new();
         let pad = |levels: usize| "    ".repeat(levels);
         if statements.len() <= BLOCK {
-            for statement in statements {
-                let _ = writeln!(lines, "{}{}", pad(indent), binding(statement));
-            }
+            write_bindings(&mut lines, statements, 0, &pad(indent));
             return lines;
         }
         let last_reader = last_readers(statements, needed);
@@ -99,13 +100,26 @@ impl Language for Context<'_> {
                 names => format!("({})", names.join(", ")),
             };
             let _ = writeln!(lines, "{}let {leaving} = {{", pad(indent));
-            for statement in chunk {
-                let _ = writeln!(lines, "{}{}", pad(indent + 1), binding(statement));
-            }
+            write_bindings(&mut lines, chunk, block * BLOCK, &pad(indent + 1));
             let _ = writeln!(lines, "{}{leaving}", pad(indent + 1));
             let _ = writeln!(lines, "{}}};", pad(indent));
         }
         lines
+    }
+}
+
+/// A line for each statement, and one for all sines that stand together; `first` is the number of the first statement.
+fn write_bindings(lines: &mut String, statements: &[Statement], first: usize, pad: &str) {
+    let mut done = 0;
+    while let Some(statement) = statements.get(done) {
+        let is_sine =
+            |next: &&Statement| matches!(next.named, Named::SinCos(..)) && !next.reads_from(first + done);
+        let together = statements[done..].iter().take(SINES).take_while(is_sine).count();
+        let _ = match together {
+            0 | 1 => writeln!(lines, "{pad}{}", binding(statement)),
+            _ => writeln!(lines, "{pad}{}", sines_together(&statements[done..done + together])),
+        };
+        done += together.max(1);
     }
 }
 
@@ -114,8 +128,26 @@ fn binding(Statement { named, value, .. }: &Statement) -> String {
     match named {
         Named::Value(name) => format!("let {name} = {value};"),
         Named::SinCos(sin, cos) => {
-            let [sin, cos] = [sin, cos].map(|name| name.as_deref().unwrap_or("_"));
+            let [sin, cos] = [sin, cos].map(read_or_not);
             format!("let ({sin}, {cos}) = sin_cos({value});")
         }
     }
+}
+
+/// `let [[s0, s1], [c0, c1]] = sin_cos_each([…, …]);`
+fn sines_together(statements: &[Statement]) -> String {
+    let [mut sines, mut cosines, mut angles] = [const { Vec::new() }; 3];
+    for Statement { named, value, .. } in statements {
+        if let Named::SinCos(sin, cos) = named {
+            sines.push(read_or_not(sin));
+            cosines.push(read_or_not(cos));
+            angles.push(value.as_str());
+        }
+    }
+    let [sines, cosines, angles] = [sines, cosines, angles].map(|texts| texts.join(", "));
+    format!("let [[{sines}], [{cosines}]] = sin_cos_each([{angles}]);")
+}
+
+fn read_or_not(name: &Option<String>) -> &str {
+    name.as_deref().unwrap_or("_")
 }

@@ -1,8 +1,17 @@
 //! Which names are those of variables in Rust.
 
 /// The functions that generated code calls by their names.
-pub(super) const CALLED: &[&str] =
-    &["madd", "sin_cos", "sqrt", "of", "vector", "columns", "forward_from_inverse", "inverse_of"];
+pub(super) const CALLED: &[&str] = &[
+    "madd",
+    "sin_cos",
+    "sin_cos_each",
+    "sqrt",
+    "of",
+    "vector",
+    "columns",
+    "forward_from_inverse",
+    "inverse_of",
+];
 
 /// Whether a local variable may have the name of the field: no keyword, nothing that is called, and no capitals,
 /// as constants and unit structs have, which a pattern would compare with.
