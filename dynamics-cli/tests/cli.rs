@@ -13,6 +13,8 @@ mod mistakes;
 mod pictures;
 #[path = "cli/readme.rs"]
 mod readme;
+#[path = "cli/report.rs"]
+mod report;
 #[path = "cli/rollouts.rs"]
 mod rollouts;
 #[path = "cli/rust.rs"]

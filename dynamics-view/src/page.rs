@@ -85,7 +85,13 @@ impl Page {
     /// An empty page.
     #[must_use]
     pub fn new(title: &str) -> Self {
-        Self { title: title.to_owned(), summary: vec![], sections: vec![], stage: None, footer: String::new() }
+        Self {
+            title: title.to_owned(),
+            summary: vec![],
+            sections: vec![],
+            stage: None,
+            footer: String::new(),
+        }
     }
 
     /// With one more paragraph below the title.

@@ -8,7 +8,8 @@ use crate::robot::Robot;
 
 pub(super) fn section(robot: &Robot<'_>) -> Section {
     let [method, counts @ ..] = count::HEAD;
-    let methods = robot.compiled.methods.iter().filter(|compiled| Method::OF_ROBOT.contains(&compiled.method));
+    let methods =
+        robot.compiled.methods.iter().filter(|compiled| Method::OF_ROBOT.contains(&compiled.method));
     let rows = methods.map(|compiled| count::row(robot, compiled));
     let table = Table::new("Operations of one call", "lrrrrrrrl")
         .head([method].into_iter().chain(counts))

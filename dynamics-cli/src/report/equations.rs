@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use dynamics_codegen::closed::{Form, Matrix, Notation};
-use dynamics_codegen::symbolic::{Number, SymbolId};
 use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
+use dynamics_codegen::symbolic::{Number, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
 
 use super::Subject;
@@ -35,7 +35,8 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     if equations.iter().map(|equation| equation.mathml.len()).sum::<usize>() > LONGEST {
         return section.text(&too_large(subject));
     }
-    let remark = format!("Numbers are rounded to {DIGITS} digits; the code that is generated has all of them.");
+    let remark =
+        format!("Numbers are rounded to {DIGITS} digits; the code that is generated has all of them.");
     equations.into_iter().fold(section, Section::equation).remark(&remark)
 }
 
@@ -104,7 +105,8 @@ fn symbols(subject: &Subject<'_, '_>) -> Table {
                 range.clone().nth(part).and_then(|at| names.get(at)).cloned().unwrap_or_default()
             };
             let of_speed = name(&robot.coordinates.v, &joint.v);
-            let of_speed = if is_plain || of_speed.is_empty() { String::new() } else { format!("`{of_speed}`") };
+            let of_speed =
+                if is_plain || of_speed.is_empty() { String::new() } else { format!("`{of_speed}`") };
             let coordinate = format!("`{}`", name(&robot.coordinates.q, &joint.q));
             let coordinate = if part < joint.q.len() { coordinate } else { String::new() };
             rows.insert((k, part), vec![coordinate, name(&q, &joint.q), of_speed, name(&v, &joint.v)]);
@@ -118,7 +120,8 @@ fn symbols(subject: &Subject<'_, '_>) -> Table {
         row
     };
     let head = ["coordinate", "symbol", "speed", "its symbol"].map(str::to_owned).to_vec();
-    let head = if has_twists { head } else { ["coordinate", "symbol", "its rate"].map(str::to_owned).to_vec() };
+    let head =
+        if has_twists { head } else { ["coordinate", "symbol", "its rate"].map(str::to_owned).to_vec() };
     Table::new("Symbols", "llll").head(head).rows(rows.into_values().map(drop))
 }
 
@@ -190,7 +193,8 @@ fn of_entries(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> 
     let lines: Vec<Line> = lines.collect();
     let all = matrix.rows() * matrix.columns();
     let given = lines.len() < matrix.entries().count();
-    let title = if given && all > 1 { format!("{title}; the other entries are zero") } else { title.to_owned() };
+    let title =
+        if given && all > 1 { format!("{title}; the other entries are zero") } else { title.to_owned() };
     of_lines(title, &lines)
 }
 

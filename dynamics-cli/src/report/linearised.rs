@@ -63,9 +63,13 @@ fn holding(robot: &Robot<'_>, at: &State, is_held: bool) -> Result<Holding, Fail
     let state = State { tau, ..at.clone() };
     let a = robot.evaluate(Method::ForwardDynamics, &state)?;
     // What the torques, and gravity, could do at most: beside it the rest is rounding.
-    let possible = robot.evaluate(Method::ForwardDynamics, &State { tau: needed.iter().map(|x| -x).collect(), ..at.clone() })?;
+    let possible = robot.evaluate(
+        Method::ForwardDynamics,
+        &State { tau: needed.iter().map(|x| -x).collect(), ..at.clone() },
+    )?;
     let possible = possible.iter().fold(0.0, |size: f64, a| size.max(a.abs()));
-    let is_equilibrium = at.v.iter().all(|v| *v == 0.0) && a.iter().all(|a| a.abs() <= ROUNDING * possible.max(1.0));
+    let is_equilibrium =
+        at.v.iter().all(|v| *v == 0.0) && a.iter().all(|a| a.abs() <= ROUNDING * possible.max(1.0));
     Ok(Holding { state, needed, a, is_equilibrium })
 }
 
@@ -73,14 +77,18 @@ fn told(holding: &Holding, is_held: bool) -> String {
     let first = "Small deviations from the state in which the robot stands go on by ẋ = A·x + B·u";
     let of_torques = match (is_held, holding.is_equilibrium) {
         (true, true) => "the torques that are given hold it there.",
-        (true, false) => "the torques that are given do not hold it there: what follows is true for a short while.",
+        (true, false) => {
+            "the torques that are given do not hold it there: what follows is true for a short while."
+        }
         (false, true) => "the torques below hold it there.",
         (false, false) => {
             "no torques of its motors keep it there as it is: the model is that of the robot without torques, and what \
              follows is true for a short while."
         }
     };
-    format!("{first}, where x are the deviations of q and v, and u those of the motors' torques; {of_torques}")
+    format!(
+        "{first}, where x are the deviations of q and v, and u those of the motors' torques; {of_torques}"
+    )
 }
 
 fn torques(subject: &Subject<'_, '_>, holding: &Holding) -> Table {
@@ -161,7 +169,13 @@ fn displacements(subject: &Subject<'_, '_>) -> Vec<String> {
     subject.robot.model.joints.iter().flat_map(of_joint).collect()
 }
 
-fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64>, holding: &Holding) -> Section {
+fn judged(
+    section: Section,
+    robot: &Robot<'_>,
+    a: &DMatrix<f64>,
+    b: &DMatrix<f64>,
+    holding: &Holding,
+) -> Section {
     let judgement = judge(a, b);
     let poles = match &judgement {
         Some(judgement) => judgement.poles.clone(),
@@ -174,7 +188,10 @@ fn judged(section: Section, robot: &Robot<'_>, a: &DMatrix<f64>, b: &DMatrix<f64
     }
     let chart = Chart::poles(Plane::Continuous).set("poles", poles.iter().copied());
     let section = section
-        .figure("The poles of the linear model, in the complex plane", Figure::new("").with(chart).wide(WIDTH))
+        .figure(
+            "The poles of the linear model, in the complex plane",
+            Figure::new("").with(chart).wide(WIDTH),
+        )
         .table(table(&poles));
     match judgement {
         Some(judgement) => section.list(sentences(&judgement, robot, holding, a.norm())),
@@ -254,7 +271,9 @@ fn sentences(judgement: &Judgement, robot: &Robot<'_>, holding: &Holding, norm: 
     let margin = number(*margin, 2);
     let about = if holding.is_equilibrium { "The equilibrium" } else { "The model" };
     let stability = match verdict {
-        Verdict::Stable => format!("{about} is stable: all small deviations decay, and would if A changed by less than {margin} of its norm."),
+        Verdict::Stable => format!(
+            "{about} is stable: all small deviations decay, and would if A changed by less than {margin} of its norm."
+        ),
         Verdict::Marginal => format!(
             "{about} is marginal: no small deviation grows exponentially, and some do not decay; the linear model alone does \
              not tell what becomes of them."
@@ -273,7 +292,12 @@ fn sentences(judgement: &Judgement, robot: &Robot<'_>, holding: &Holding, norm: 
             for pole in missing.iter().map(|pole| cleared(*pole, norm)) {
                 let text = match pole {
                     [re, 0.0] => number(re, 3),
-                    [re, im] => format!("{} {} {}i", number(re, 3), if im < 0.0 { "−" } else { "+" }, number(im.abs(), 3)),
+                    [re, im] => format!(
+                        "{} {} {}i",
+                        number(re, 3),
+                        if im < 0.0 { "−" } else { "+" },
+                        number(im.abs(), 3)
+                    ),
                 };
                 match lost.iter_mut().find(|(known, _)| *known == text) {
                     Some((_, count)) => *count += 1,

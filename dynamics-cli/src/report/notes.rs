@@ -8,7 +8,11 @@ use crate::check::placed;
 pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let report = &subject.robot.report;
     let lists = [
-        ("Merged", &report.merged, "Links without motion of their own, which are one with those that carry them."),
+        (
+            "Merged",
+            &report.merged,
+            "Links without motion of their own, which are one with those that carry them.",
+        ),
         ("Ignored", &report.ignored, "Elements and attributes that the equations do not use."),
         ("Snapped", &report.snapped, "Angles within 1e-11 of right ones, which are taken for these."),
         ("Remarks", &report.remarks, "What was altered or assumed, and what looks odd."),
@@ -18,16 +22,19 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
         return section.text("All of it was used as it stands.");
     }
     let file = super::summary::file(subject);
-    lists.into_iter().filter(|(_, notes, _)| !notes.is_empty()).fold(section, |section, (title, notes, what)| {
-        let lines = placed(notes, subject.input);
-        // The folder of the file is of no concern to readers.
-        let shown = lines.iter().map(|line| line.replacen(&subject.input.name, &file, 1));
-        let mut kept: Vec<String> = shown.take(MOST).collect();
-        if lines.len() > MOST {
-            kept.push(format!("and {} more, which `dynamics check` lists", lines.len() - MOST));
-        }
-        section.heading(title).remark(what).list(kept)
-    })
+    lists.into_iter().filter(|(_, notes, _)| !notes.is_empty()).fold(
+        section,
+        |section, (title, notes, what)| {
+            let lines = placed(notes, subject.input);
+            // The folder of the file is of no concern to readers.
+            let shown = lines.iter().map(|line| line.replacen(&subject.input.name, &file, 1));
+            let mut kept: Vec<String> = shown.take(MOST).collect();
+            if lines.len() > MOST {
+                kept.push(format!("and {} more, which `dynamics check` lists", lines.len() - MOST));
+            }
+            section.heading(title).remark(what).list(kept)
+        },
+    )
 }
 
 /// Lines of one list.

@@ -32,9 +32,9 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
         .table(table("Coordinates and limits", &check::joint_rows(robot)));
     let followers = check::followers(&robot.spec);
     if !followers.is_empty() {
-        section = section.heading("Joints that follow others").list(followers.lines().map(|line| {
-            format!("`{}`", line.trim())
-        }));
+        section = section
+            .heading("Joints that follow others")
+            .list(followers.lines().map(|line| format!("`{}`", line.trim())));
     }
     let passive = check::passive_rows(robot);
     match passive.is_empty() {

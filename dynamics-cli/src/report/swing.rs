@@ -1,8 +1,8 @@
 //! A robot left to itself for a while.
 
 use dynamics_core::Energy;
-use dynamics_view::{Coordinate, Measure};
 use dynamics_view::page::{Section, number};
+use dynamics_view::{Coordinate, Measure};
 
 use super::Subject;
 use crate::failure::Failure;
@@ -98,7 +98,8 @@ impl Swing {
                 }
                 Err(failure) => return Err(failure),
             };
-            let is_beyond = |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&seen.state.q[part.q]);
+            let is_beyond =
+                |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&seen.state.q[part.q]);
             for (_, part) in bounded.iter().filter(is_beyond) {
                 match part.measure {
                     Measure::Distance => swing.end = End::Stop { joint: part.name.clone() },
@@ -137,12 +138,19 @@ impl Swing {
         };
         let drift = self.moments.iter().map(|now| (now.energy.total() - first.energy.total()).abs());
         let drift = number(drift.fold(0.0, f64::max), 2);
-        let loses = subject.robot.tree.links.iter().any(|link| {
-            link.passive.damping != 0.0 || link.passive.friction != 0.0
-        });
+        let loses = subject
+            .robot
+            .tree
+            .links
+            .iter()
+            .any(|link| link.passive.damping != 0.0 || link.passive.friction != 0.0);
         let account = match loses {
-            true => format!("Dampers and friction, and the method's error, changed the total energy by up to {drift} J."),
-            false => format!("Nothing takes energy from it: the total changed by no more than {drift} J, which is the method's error."),
+            true => format!(
+                "Dampers and friction, and the method's error, changed the total energy by up to {drift} J."
+            ),
+            false => format!(
+                "Nothing takes energy from it: the total changed by no more than {drift} J, which is the method's error."
+            ),
         };
         Section::new("swing", "A swing")
             .text(&format!("The robot left to itself {ending}. Its motors are off. {account}{}", self.limits_passed()))
@@ -163,7 +171,10 @@ impl Swing {
             1 => ", and one other later".to_owned(),
             more => format!(", and {more} others later"),
         };
-        format!(" Its joints have no stops here: `{joint}` passes its limit after {} s{others}.", number(*time, 3))
+        format!(
+            " Its joints have no stops here: `{joint}` passes its limit after {} s{others}.",
+            number(*time, 3)
+        )
     }
 }
 

