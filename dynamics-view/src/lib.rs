@@ -9,7 +9,7 @@
 //! A [`Recording`] makes the first two of a robot of the derive.
 //!
 //! Same input, same bytes. What cannot be drawn is an [`Error`]; nothing panics. SI units and radians.
-//! `node dynamics-view/browser/check.mjs FILE…` tries pictures in a browser.
+//! `node dynamics-view/browser/check.mjs FILE…` tries pictures in a browser, and `report.mjs` beside it a page.
 
 mod chart;
 mod coordinates;

@@ -20,10 +20,7 @@ const WIDEST: usize = 100;
 const DIGITS: usize = 6;
 
 pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
-    let section = Section::new("equations", "Equations of motion").text(
-        "The joints move by M(q)·a + C(q,v)·v + G(q) + passive = τ, where v = q̇ and a = v̇ (of ball and free joints v is \
-         the twist of the body in its own axes), and passive are the forces of dampers, friction and springs.",
-    );
+    let section = Section::new("equations", "Equations of motion").text(&told(subject));
     let section = section.table(symbols(subject));
     if subject.robot.dof() > LARGEST {
         return section.text(&too_large(subject));
@@ -40,9 +37,29 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     equations.into_iter().fold(section, Section::equation).remark(&remark)
 }
 
+/// The equation of which these are the parts.
+fn told(subject: &Subject<'_, '_>) -> String {
+    let (tree, links) = (&subject.robot.tree, &subject.robot.model.links);
+    let acts =
+        tree.links.iter().zip(links).filter(|(_, info)| info.acts).any(|(link, _)| {
+            [link.passive.damping, link.passive.friction, link.passive.stiffness] != [0.0; 3]
+        });
+    let [passive, forces] = match acts {
+        true => [" + passive", ", and passive are the forces of dampers, friction and springs"],
+        false => ["", ""],
+    };
+    let twists = match tree.quaternions().next() {
+        Some(_) => "; of ball and free joints v is the twist of the body in its own axes",
+        None => "",
+    };
+    format!(
+        "The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where v = q̇ and a = v̇{forces}{twists}."
+    )
+}
+
 /// With numbers that people can read.
 fn rounded(forms: ClosedForms) -> ClosedForms {
-    let of = |matrix: &Matrix| matrix.map(|entry| short(entry));
+    let of = |matrix: &Matrix| matrix.map(short);
     ClosedForms {
         definitions: forms.definitions.iter().map(|(symbol, form)| (*symbol, short(form))).collect(),
         mass_matrix: of(&forms.mass_matrix),
@@ -147,13 +164,14 @@ fn math(rows: &str) -> String {
     format!(r#"<math display="block">{rows}</math>"#)
 }
 
-/// The left-hand side: a letter, perhaps of arguments.
+/// The left-hand side: a letter, perhaps of arguments, whose brackets do not grow with what is on the right.
 fn left(name: &str) -> String {
     let (letter, arguments) = name.split_once('(').unwrap_or((name, ""));
     let mut text = format!("<mi>{letter}</mi>");
     if let Some(arguments) = arguments.strip_suffix(')') {
         let names: Vec<String> = arguments.split(',').map(|name| format!("<mi>{name}</mi>")).collect();
-        text += &format!("<mo>(</mo>{}<mo>)</mo>", names.join("<mo>,</mo>"));
+        let names = names.join("<mo>,</mo>");
+        text += &format!(r#"<mo stretchy="false">(</mo>{names}<mo stretchy="false">)</mo>"#);
     }
     text + "<mo>=</mo>"
 }

@@ -52,10 +52,11 @@ fn told(cells: &[Vec<Cell>]) -> String {
     let count = |is: fn(&Cell) -> bool| of_half().filter(|cell| is(cell)).count();
     let (all, zero) = (of_half().count(), count(|cell| *cell == Cell::Zero));
     let constant = count(|cell| matches!(cell, Cell::Constant(_)));
+    let varying = all - zero - constant;
+    let zero = if zero == 0 { "none".to_owned() } else { zero.to_string() };
     format!(
-        "M(q) is symmetric and positive definite. Of its {all} entries on and above the diagonal {zero} are zero at \
-         every configuration, {constant} are constants, and {} depend on the configuration.",
-        all - zero - constant
+        "M(q) is symmetric and positive definite. Of its {all} entries on and above the diagonal always zero: {zero}; \
+         constant: {constant}; dependent on the configuration: {varying}."
     )
 }
 
