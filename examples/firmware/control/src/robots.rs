@@ -1,5 +1,6 @@
 //! The robots, each as on its page among the examples, and a leg.
 #![allow(missing_docs, reason = "fields are the symbols of the lecture; joints and bodies have their names")]
+#![allow(clippy::duplicated_attributes, reason = "two joints may have the same motor")]
 
 use dynamics_core::prelude::*;
 
