@@ -129,3 +129,22 @@ fn the_energy_of_a_driven_robot_is_accounted_for() -> Result<(), Box<dyn std::er
     assert!(!drawn(&knowing)?.contains("work of the motors"));
     Ok(())
 }
+
+/// A body that slides, and beside it a coordinate of which there is no body.
+#[derive(Dynamics)]
+#[joint(slide: prismatic(x), world -> cart)]
+#[body(cart, solid = point(2kg))]
+#[coordinate(sway: length, armature = 1kg)]
+#[potential(20N_per_m / 2 * (slide - sway)^2)]
+struct Swaying;
+
+#[test]
+fn coordinates_without_bodies_are_charted_and_not_drawn() {
+    let mut simulation =
+        Simulation::new(&Swaying, State::rest(SVector::from([0.1, 0.0])), 0.01).expect("it is at rest");
+    let mut seen = Recording::of(&Swaying).with_masses();
+    assert_eq!(seen.watch(simulation.steps(100)).filter(Result::is_ok).count(), 100);
+    let bodies: Vec<_> = seen.film().scene().bodies.iter().map(|body| body.name.clone()).collect();
+    assert_eq!(bodies, ["cart"]);
+    assert!(seen.figure("Sway").svg().expect("there is something to draw").contains("sway"));
+}

@@ -169,22 +169,24 @@ impl<'g> Added<'g> {
     }
 }
 
+/// What finds a flaw of a term of a robot at coordinates and speeds.
+type Judge = fn(&Term<f64>, &Tree<f64>, &[f64], &[f64]) -> Option<Flaw>;
+
 /// For each term, those of V, of D, of T, what is wrong with it in every configuration.
 pub fn flaws(model: &Model<'_>, graph: &Graph) -> Vec<Option<Flaw>> {
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
     let states = states(&tree);
-    let always = |flaw_at: &dyn Fn(&[f64], &[f64]) -> Option<Flaw>| {
-        let mut found = states.iter().map(|(q, v)| flaw_at(q, v));
+    let always = |judge: Judge, term: &Term<f64>| {
+        let mut found = states.iter().map(|(q, v)| judge(term, &tree, q, v));
         let first = found.next()??;
         found.all(|other| other == Some(first)).then_some(first)
     };
-    let of_any = |term: &Term<f64>| always(&|q, v| flaw(term, &tree, q, v));
+    let of_any = |term: &Term<f64>| always(flaw, term);
     // Whether what depends on fields drives is theirs to say.
     let is_judged = |flaw: &Flaw| *flaw != Flaw::Drives || model.parameters.is_empty();
-    let of_dissipation = |term: &Term<f64>| {
-        of_any(term).or_else(|| always(&|q, v| flaw_of_dissipation(term, &tree, q, v)).filter(is_judged))
-    };
+    let of_dissipation =
+        |term: &Term<f64>| of_any(term).or_else(|| always(flaw_of_dissipation, term).filter(is_judged));
     let Terms { potential, dissipation, kinetic } = &tree.terms;
     let judged = potential.iter().map(of_any).chain(dissipation.iter().map(of_dissipation));
     judged.chain(kinetic.iter().map(of_any)).collect()
@@ -322,15 +324,14 @@ pub(super) fn energies<'g>(
 ) -> Vec<(String, Energy<'g>)> {
     let mut evaluation = Evaluation { v, along, places };
     let mut energies = vec![];
-    let kinds: [(&str, &[Term<_>], fn(Expr<'g>) -> Energy<'g>); 3] = [
-        ("potential", &terms.potential, Energy::Potential),
-        ("dissipation", &terms.dissipation, Energy::Dissipation),
-        ("kinetic", &terms.kinetic, Energy::Kinetic),
-    ];
-    for (kind, terms, energy) in kinds {
-        for (k, term) in terms.iter().enumerate() {
-            energies.push((format!("{kind}.{}", k + 1), energy(evaluation.value(term))));
-        }
+    for (k, term) in terms.potential.iter().enumerate() {
+        energies.push((format!("potential.{}", k + 1), Energy::Potential(evaluation.value(term))));
+    }
+    for (k, term) in terms.dissipation.iter().enumerate() {
+        energies.push((format!("dissipation.{}", k + 1), Energy::Dissipation(evaluation.value(term))));
+    }
+    for (k, term) in terms.kinetic.iter().enumerate() {
+        energies.push((format!("kinetic.{}", k + 1), Energy::Kinetic(evaluation.value(term))));
     }
     energies
 }

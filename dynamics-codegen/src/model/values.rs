@@ -73,10 +73,10 @@ impl<'s, 'g> Values<'s, 'g> {
     /// The exponents of kg, m and s in a joint's one coordinate.
     pub(super) fn unit_of_coordinate(&self, name: &Name) -> Option<[i8; 3]> {
         let joint = &self.joints[self.joint(name)?];
-        (joint.kind.speeds() == 1).then(|| match joint.kind {
-            JointKind::Prismatic => [0, 1, 0],
-            _ => [0; 3],
-        })
+        match joint.kind {
+            JointKind::Prismatic => Some([0, 1, 0]),
+            kind => (kind.speeds() == 1).then_some([0; 3]),
+        }
     }
 
     /// The same in a coordinate or a speed of a joint that has several.

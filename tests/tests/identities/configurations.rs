@@ -141,7 +141,7 @@ fn quaternions_of_another_length_are_reported_by_their_place() {
             }
         }
     }
-    assert_eq!(count, 7, "free boxes, balls and quadrupeds of the zoo");
+    assert_eq!(count, 9, "free boxes, balls, hulls and quadrupeds of the zoo");
 }
 
 /// Both signs of a quaternion are one orientation: nothing that is asked of the robot tells them apart.
@@ -165,7 +165,7 @@ fn the_sign_of_a_quaternion_does_not_matter() {
 fn inputs_are_the_speeds_with_motors() {
     let without = |name: &str| -> Vec<usize> {
         match name {
-            "FreeBox" | "Hyq" => (0..6).collect(),
+            "FreeBox" | "Hyq" | "Tethered" => (0..6).collect(),
             "TwoFreeBodies" => (7..13).collect(),
             "CartWithMotor" | "LoadedScara" => vec![1],
             _ => vec![],
