@@ -54,8 +54,9 @@ Examples:
   dynamics simulate arm.urdf --time 10 --step 1e-3 --q 0.1,0.2 -o arm.csv
   dynamics rollouts arm.urdf --time 5 --step 1e-3 --vary 'q.elbow = uniform(-1, 1)' --count 1000 -o arm.parquet
   dynamics explain MassNegative
+  dynamics explain arm.rs
 
-FILE may be `-`, for standard input.";
+FILE is a URDF, or a file of Rust with `#[derive(Dynamics)]` on a struct. It may be `-`, for standard input.";
 
 fn main() -> ExitCode {
     let done = match Command::parse() {

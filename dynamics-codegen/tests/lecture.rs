@@ -10,7 +10,7 @@ use dynamics_codegen::mechanics::lecture::{Body, Lecture, lecture};
 use dynamics_codegen::mechanics::plain::{self, Dual, Oracle};
 use dynamics_codegen::model::{self, Frame, Model, Tree};
 use dynamics_codegen::passes::{self, RunTime};
-use dynamics_codegen::spatial::{Matrix3, Pose, Vector3};
+use dynamics_codegen::spatial::{Pose, Vector3};
 use dynamics_codegen::symbolic::{Evaluator, Graph, SymbolId};
 
 const JUDGE: &str = "
@@ -30,13 +30,13 @@ const ROBOTS: [&str; 7] = [
      #[joint(pitch: revolute(y), rolled -> pitched)] #[body(pitched)]
      #[joint(yaw: revolute(z), pitched -> cargo)] #[body(cargo, solid = cuboid(m, [l, w, h]))]
      struct TossedBox<T> { m: T, l: T, w: T, h: T }",
-    "#[joint(x: prismatic(x), world -> cart, damping = c)] #[body(cart, mass = M, inertia = diag(0, 0, 0))]
+    "#[joint(x: prismatic(x), world -> cart, damping = c)] #[body(cart, solid = point(M))]
      #[joint(theta: revolute(y), cart -> pole, rotor = j, gear = 30, stiffness = k, rest = 0.1, friction = f, friction_speed = 0.01)]
      #[body(pole, com = [0, 0, l], solid = point(m))]
      struct CartPole<T> { M: T, m: T, l: T, c: T, j: T, k: T, f: T }",
     "#[joint(base: fixed, world -> foot)] #[body(foot, solid = point(5kg), com = [0, 0, 0.1])]
      #[joint(a: revolute(y), foot -> upper, at = [0, 0, 0.2])] #[body(upper, solid = rod(2, 0.5, z), com = [0, 0, 0.25])]
-     #[joint(b: revolute([0, 3, 4]), upper -> lower, at = [0, 0, 0.5], mimic = a, ratio = -2, offset = 0.3)]
+     #[joint(b: revolute([0, 3, 4]), upper -> lower, at = [0, 0, 0.5], mimic = a, ratio = -2, offset = 90deg)]
      #[body(lower, solid = rod(1, 0.4, z), com = [0, 0.1, 0.2])]
      struct Follower;",
     "#[joint(a: revolute(y), world -> rod)] #[body(rod, com = [0, 0, l / 2], solid = rod(m, l, z))]
@@ -53,7 +53,6 @@ const ROBOTS: [&str; 7] = [
 /// A robot and its derivation at numbers.
 struct Walk<'w, 'g> {
     model: &'w Model<'g>,
-    graph: &'g Graph,
     lecture: Lecture,
     tree: Tree<f64>,
     values: Vec<f64>,
@@ -73,7 +72,7 @@ fn for_each_walk(check: impl Fn(&Walk<'_, '_>)) {
     }
 }
 
-fn with_model(text: &str, run: impl FnOnce(&Model<'_>, &Graph)) {
+fn with_model(text: &str, run: impl for<'g> FnOnce(&Model<'g>, &'g Graph)) {
     let item: syn::DeriveInput = syn::parse_str(text).unwrap();
     let (graph, mut diags) = (Graph::new(), Diagnostics::new());
     let spec = dynamics_codegen::spec::parse(&item, &mut diags);
@@ -88,7 +87,7 @@ impl<'w, 'g> Walk<'w, 'g> {
         // Irrational steps: no number is like another.
         let number = |k: usize| (0.7 + 1.618_034 * (state * 50 + k) as f64) % 2.0 - 0.9;
         let mut values: Vec<f64> = model.parameters.iter().map(|parameter| parameter.sample).collect();
-        let mut vector = |argument: Argument, before: usize| -> Vec<f64> {
+        let vector = |argument: Argument, before: usize| -> Vec<f64> {
             (0..inputs.size(argument)).map(|k| number(before + k)).collect()
         };
         let (mut q, v, a) = (vector(Argument::Q, 0), vector(Argument::V, 13), vector(Argument::A, 29));
@@ -96,7 +95,7 @@ impl<'w, 'g> Walk<'w, 'g> {
         let tree = model.tree.map(|expr| evaluator.value(expr));
         tree.normalise(&mut q);
         values.extend(q.iter().chain(&v).chain(&a));
-        Self { model, graph, lecture: lecture(model, graph), tree, values, q, v, a }
+        Self { model, lecture: lecture(model, graph), tree, values, q, v, a }
     }
 
     fn value(&self, form: &Form) -> f64 {
@@ -172,7 +171,6 @@ fn a_jacobian_is_how_the_pose_changes() {
                 let pose = plain::pose(&moved, &frame, &Dual::moving(&walk.q, &rate));
                 let R = pose.rotation.map(|entry| entry.value);
                 let linear = R.transpose() * Vector3(pose.translation.0.map(|entry| entry.tangent));
-                let Matrix3([_, [_, _, _], _]) = R;
                 let spin = (R.transpose() * pose.rotation.map(|entry| entry.tangent)).0;
                 let column = [linear.0[0], linear.0[1], linear.0[2], spin[2][1], spin[0][2], spin[1][0]];
                 J.iter_mut().zip(column).for_each(|(row, entry)| row[j] = entry);

@@ -6,8 +6,7 @@ use core::fmt;
 ///
 /// They come from the same robot as the code, and are compared with it exactly where this is tested. A field of the struct
 /// has its own name, the coordinates those of their joints if these are letters (`theta1` is θ₁), and speeds have dots.
-/// [`equations()`](derive@crate::Dynamics) is there for robots of at most four links whose forms are short enough to be
-/// read.
+/// `Robot::equations()` is there for robots of at most four links whose forms are short enough to be read.
 ///
 /// It prints as one equation after the other, in Unicode.
 ///

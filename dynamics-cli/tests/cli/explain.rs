@@ -41,7 +41,8 @@ fn a_field_may_be_a_number() {
 #[test]
 fn every_robot_is_explained_as_far_as_it_can_be_read() {
     let urdfs = ROBOTS.iter().map(|(robot, options)| (model(robot), options.to_vec()));
-    let examples = [("racket", "Thrown"), ("robojudge", "TossedBox"), ("acrobot", "Acrobot"), ("monte_carlo", "Arm")];
+    let examples =
+        [("racket", "Thrown"), ("robojudge", "TossedBox"), ("acrobot", "Acrobot"), ("monte_carlo", "Arm")];
     let structs = examples.map(|(file, name)| (format!("../../examples/{file}.rs"), vec!["--robot", name]));
     for (file, options) in urdfs.chain(structs) {
         for format in ["unicode", "markdown", "latex"] {

@@ -109,8 +109,6 @@ impl Emitter<'_, '_> {
     pub(super) fn equations(&self) -> String {
         let Some(closed) = self.input.closed else { return String::new() };
         let notation = &closed.notation;
-        let equation =
-            |unicode: &str, latex: &str| format!("Equation {{ unicode: {unicode:?}, latex: {latex:?} }}");
         let visibility = &self.item.visibility;
         let mut text = self.open_without_scalar(&self.robot(), "");
         text.push_str(
@@ -122,16 +120,16 @@ impl Emitter<'_, '_> {
             "        {visibility}const fn equations() -> Equations {{\n            Equations {{"
         );
         for (method, _, value) in values(closed) {
-            let equation = equation(&value.unicode(notation).join("\n"), &value.latex(notation));
-            let _ = writeln!(text, "                {}: {equation},", method.name());
+            let (unicode, latex) = (value.unicode(notation).join("\n"), value.latex(notation));
+            let _ = writeln!(text, "                {}: {},", method.name(), equation(&unicode, &latex));
         }
         let definitions = closed.definitions.iter().map(|(symbol, form)| {
             let name = Form::Symbol(*symbol);
-            format!(
-                "Definition {{ name: {}, value: {} }}",
+            let (name, value) = (
                 equation(&name.unicode(notation), &name.latex(notation)),
-                equation(&form.unicode(notation), &form.latex(notation))
-            )
+                equation(&form.unicode(notation), &form.latex(notation)),
+            );
+            format!("Definition {{ name: {name}, value: {value} }}")
         });
         let definitions = definitions.collect::<Vec<_>>().join(", ");
         let _ = writeln!(
@@ -140,4 +138,15 @@ impl Emitter<'_, '_> {
         );
         text
     }
+}
+
+/// A form in both notations, as it stands in the list of them.
+fn equation(unicode: &str, latex: &str) -> String {
+    let (indent, end) = (" ".repeat(20), " ".repeat(16));
+    format!("Equation {{\n{indent}unicode: {},\n{indent}latex: {},\n{end}}}", quoted(unicode), quoted(latex))
+}
+
+/// A text as a literal of Rust; dots above letters stay where they are.
+fn quoted(text: &str) -> String {
+    format!("\"{}\"", text.replace('\\', "\\\\").replace('"', "\\\"").replace('\n', "\\n"))
 }
