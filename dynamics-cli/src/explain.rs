@@ -9,7 +9,7 @@ use std::path::Path;
 
 use clap::ValueEnum;
 use dynamics_codegen::diagnostics::{Code, Diagnostics, did_you_mean};
-use dynamics_codegen::mechanics::derivation::derivation;
+use dynamics_codegen::mechanics::lecture::lecture;
 use dynamics_codegen::model;
 use dynamics_codegen::symbolic::Graph;
 
@@ -97,12 +97,12 @@ fn derive(args: &Args, file: &Path) -> Result<(), Failure> {
     let Some(model) = model else { return Ok(()) };
     let text = {
         let _progress = Progress::of("deriving");
-        let derivation = derivation(&model, &graph);
-        let blocks = derivation::document(&model, &derivation);
+        let lecture = lecture(&model, &graph);
+        let blocks = derivation::document(&model, &lecture);
         match args.format {
-            Format::Unicode => unicode::written(&blocks, &derivation.notation),
-            Format::Latex => latex::written(&blocks, &derivation.notation, latex::Kind::Whole),
-            Format::Markdown => latex::written(&blocks, &derivation.notation, latex::Kind::Markdown),
+            Format::Unicode => unicode::written(&blocks, &lecture.notation),
+            Format::Latex => latex::written(&blocks, &lecture.notation, latex::Kind::Whole),
+            Format::Markdown => latex::written(&blocks, &lecture.notation, latex::Kind::Markdown),
         }
     };
     print(&text.trim_end().split('\n').map(shown).chain([String::new()]).collect::<Vec<_>>().join("\n"))

@@ -58,8 +58,9 @@ Examples:
   dynamics report arm.urdf -o arm.html
   dynamics rollouts arm.urdf --time 5 --step 1e-3 --vary 'q.elbow = uniform(-1, 1)' --count 1000 -o arm.parquet
   dynamics explain MassNegative
+  dynamics explain arm.rs
 
-FILE may be `-`, for standard input.";
+FILE is a URDF, or a file of Rust with `#[derive(Dynamics)]` on a struct. It may be `-`, for standard input.";
 
 fn main() -> ExitCode {
     let done = match Command::parse() {

@@ -26,6 +26,9 @@ use spec::RobotSpec;
 use spec::urdf::{Report, Urdf};
 use symbolic::Graph;
 
+/// Robots of more links have no equations in closed form in their code.
+const LINKS_IN_CLOSED_FORM: usize = 4;
+
 /// The deepest nesting of groups that is read at all: what reads tokens recurses.
 const NESTING_LIMIT: usize = 64;
 
@@ -212,7 +215,11 @@ pub fn generate_rust(spec: &RobotSpec) -> Result<String, Diagnostics> {
     let graph = Graph::new();
     let (model, compiled) = checked(spec, &graph, RunTime::Core)?;
     let item = emit::rust::Item::of(spec, &model);
-    Ok(emit::rust::implementation(&emit::rust::Input { item: &item, model: &model, compiled: &compiled }))
+    // Of large robots they are too long, and finding that out takes its time.
+    let is_short = model.tree.links.len() <= LINKS_IN_CLOSED_FORM;
+    let closed = is_short.then(|| mechanics::closed::closed_forms(&model, &graph).ok()).flatten();
+    let (item, model, compiled) = (&item, &model, &compiled);
+    Ok(emit::rust::implementation(&emit::rust::Input { item, model, compiled, closed: closed.as_ref() }))
 }
 
 /// A robot in C, with everything about it named by `prefix`; `origin` says in its first lines where it comes from.

@@ -13,6 +13,7 @@ pub use crate::centroidal::CentroidalDynamics;
 pub use crate::dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
+pub use crate::equations::{Definition, Equation, Equations};
 pub use crate::error::Error;
 pub use crate::kinematics::{EachFrame, Frame, FrameVisitor, Kinematics, Pose};
 pub use crate::linearize::{Linearization, StateSpaceModel};

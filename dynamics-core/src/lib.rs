@@ -74,6 +74,7 @@ pub mod batch;
 pub mod centroidal;
 pub mod control;
 pub mod dynamics;
+pub mod equations;
 pub mod error;
 pub mod kinematics;
 #[cfg(feature = "simd")]
@@ -104,6 +105,7 @@ pub use centroidal::CentroidalDynamics;
 pub use dynamics::{
     Dynamics, DynamicsDerivatives, EquationsOfMotion, ForwardDynamicsDerivatives, InverseDynamicsDerivatives,
 };
+pub use equations::{Definition, Equation, Equations};
 pub use error::Error;
 pub use kinematics::{EachFrame, Frame, FrameVisitor, Kinematics, Pose};
 pub use linearize::{Linearization, StateSpaceModel};

@@ -350,6 +350,27 @@ use proc_macro::TokenStream;
 /// the robot itself prepare in each call, so in a loop use the companion. A robot without parameters is its own.
 /// `check()` says whether every field that the equations read is finite, and every mass positive.
 ///
+/// The equations themselves, as a lecture writes them, are in the documentation of `mass_matrix` and the other methods
+/// (an editor shows it on the method's name), and in constants: `equations()` has M, C, G, T, V and L in Unicode and LaTeX.
+/// A robot of more than four links has no such method, nor has one whose equations are too long to be read; `dynamics
+/// explain`, of the command line, says how far it gets.
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// #[derive(Dynamics)]
+/// #[joint(theta: revolute(y), world -> bob)]
+/// #[body(bob, com = [0, 0, -l], solid = point(m))]
+/// struct Pendulum<T> {
+///     m: T,
+///     l: T,
+/// }
+///
+/// const EQUATIONS: dynamics_core::Equations = Pendulum::<f64>::equations();
+/// assert_eq!(EQUATIONS.mass_matrix.unicode, "[m l²]");
+/// assert!(EQUATIONS.gravity_forces.latex.contains(r"m l \sin \theta"));
+/// println!("{EQUATIONS}");
+/// ```
+///
 /// ```
 /// # use dynamics_core::prelude::*;
 /// /// A rod on a hinge, in single precision.

@@ -1,28 +1,28 @@
 //! The words around a derivation: from the figure of a robot to its equations, as a lecture walks.
 
 use dynamics_codegen::closed::{Form, Matrix};
-use dynamics_codegen::mechanics::derivation::{Body, Derivation, Equations, Joint, Linear, MOST_DOF};
 use dynamics_codegen::mechanics::equations::{Argument, Inputs};
+use dynamics_codegen::mechanics::lecture::{Body, Equations, Joint, Lecture, Linear, MOST_DOF};
 use dynamics_codegen::model::{Model, Motion};
 
 use super::document::{Block, Math, Piece, Side, indexed, lowered, math, words};
 
 /// Writes all steps, to the one that would be too long.
-pub(super) fn document(model: &Model<'_>, derivation: &Derivation) -> Vec<Block> {
-    let mut text = Lecture { model, derivation, blocks: vec![] };
+pub(super) fn document(model: &Model<'_>, lecture: &Lecture) -> Vec<Block> {
+    let mut text = Text { model, lecture, blocks: vec![] };
     text.title();
     text.figure();
     text.steps();
     text.blocks
 }
 
-struct Lecture<'d, 'g> {
+struct Text<'d, 'g> {
     model: &'d Model<'g>,
-    derivation: &'d Derivation,
+    lecture: &'d Lecture,
     blocks: Vec<Block>,
 }
 
-impl Lecture<'_, '_> {
+impl Text<'_, '_> {
     fn heading(&mut self, number: usize, title: &str) {
         self.blocks.push(Block::Heading(format!("{number}. {title}")));
     }
@@ -49,7 +49,7 @@ impl Lecture<'_, '_> {
 
     fn figure(&mut self) {
         self.heading(1, "The robot, where its coordinates are zero");
-        let figure = &self.derivation.figure;
+        let figure = &self.lecture.figure;
         let joints = figure.joints.iter().map(|joint| self.joint(joint)).collect();
         self.blocks.push(Block::List(joints));
         let mut gravity = words("All falls with the acceleration $g⃗|\\vec g$ = ");
@@ -125,24 +125,24 @@ impl Lecture<'_, '_> {
     }
 
     fn written(&self, form: &Form) -> Math {
-        let notation = &self.derivation.notation;
+        let notation = &self.lecture.notation;
         math(form.unicode(notation), form.latex(notation))
     }
 
     fn steps(&mut self) {
-        let derivation = self.derivation;
-        let Ok(bodies) = &derivation.bodies else { return self.too_long("What comes next") };
+        let lecture = self.lecture;
+        let Ok(bodies) = &lecture.bodies else { return self.too_long("What comes next") };
         self.poses(bodies);
         self.jacobians(bodies);
         self.energies(bodies);
-        let Ok(equations) = &derivation.equations else { return self.too_long("The sum of all bodies") };
+        let Ok(equations) = &lecture.equations else { return self.too_long("The sum of all bodies") };
         self.sums(equations);
         self.mass_matrix(bodies, equations);
         self.coriolis(equations);
         self.gravity(equations);
         self.lagrange(equations);
         self.state_space(equations);
-        match &derivation.linear {
+        match &lecture.linear {
             Ok(linear) => self.linear(linear),
             Err(_) => self.too_long("The linear model"),
         }
@@ -152,13 +152,13 @@ impl Lecture<'_, '_> {
         let dof = self.model.tree.dof();
         let why = if dof > MOST_DOF {
             format!(
-                "they have {dof} degrees of freedom, and a derivation is written out of {MOST_DOF} at the most"
+                "the robot has {dof} degrees of freedom, and {MOST_DOF} are the most that are written out"
             )
         } else {
             "an entry has more than 60 terms, or takes more than 200,000 products of terms to find".to_owned()
         };
         self.text(&format!(
-            "{what} would be too long to be read: {why}. The numbers are there all the same, by `dynamics eval`, and the \
+            "{what} would be too long to be read: {why}. Numbers are there all the same, by `dynamics eval`, and the \
              code, by `dynamics generate`."
         ));
     }
@@ -181,11 +181,11 @@ impl Lecture<'_, '_> {
 
     fn jacobians(&mut self, bodies: &[Body]) {
         self.heading(3, "How they move");
-        let v = if self.is_flat() { "$q̇|\\dot q$" } else { "$v|v$" };
+        let [v, latex] = if self.is_flat() { ["q̇", "\\dot q"] } else { ["v", "v"] };
         self.text(&format!(
             "The column j of the body Jacobian $J_iᵇ|J_i^b$ is the twist of body i, linear velocity first, in its own frame \
              and axes, while joint j moves at one unit of speed and no other moves. Joints that do not carry the body leave \
-             zeros. All together give the twist $V_iᵇ = J_iᵇ·|V_i^b = J_i^b\\,${v}:",
+             zeros. All together give the twist $V_iᵇ = J_iᵇ·{v}|V_i^b = J_i^b {latex}$:",
         ));
         for (i, body) in bodies.iter().enumerate() {
             let jacobian = Side::Math(indexed("J", "J", &[i], Some(("ᵇ", "b"))));
@@ -218,7 +218,7 @@ impl Lecture<'_, '_> {
         self.text(&format!("{sum}, and the Lagrangian $L = T − V|L = T - V$:"));
         if !equations.potential_at_rest.is_zero() {
             let at_rest = Side::Form(equations.potential_at_rest.clone());
-            self.text("What stands still in the world has a part in V:");
+            self.text("What stands still in the world has a part in $V|V$:");
             self.equation([Side::Math(math("V₀", "V_0")), at_rest]);
         }
         for (letter, form) in [
@@ -257,25 +257,25 @@ impl Lecture<'_, '_> {
 
     fn coriolis(&mut self, equations: &Equations) {
         self.heading(6, "Coriolis and centrifugal forces");
-        let C = Side::Matrix(equations.coriolis_matrix.clone());
+        let matrix = Side::Matrix(equations.coriolis_matrix.clone());
         let Some(symbols) = &equations.christoffel else {
             self.text(
                 "Angular velocities are no rates of coordinates: turning about x and then about y is not turning about y and \
                  then about x. By how much is what the brackets $[e_i, e_j]$ of unit speeds say, and these enter beside the \
-                 derivatives of M: $C_ij = ⟨∇_v e_j, e_i⟩|C_{ij} = \\langle \\nabla_v e_j, e_i \\rangle$ by Koszul's formula, \
+                 derivatives of $M|M$: $C_ij = ⟨∇_v e_j, e_i⟩|C_{ij} = \\langle \\nabla_v e_j, e_i \\rangle$ by Koszul's formula, \
                  again with $Ṁ = C + Cᵀ|\\dot M = C + C^T$:",
             );
-            self.equation([Side::Math(math("C", "C")), C]);
+            self.equation([Side::Math(math("C", "C")), matrix]);
             return;
         };
         self.text(
-            "How M changes is in Christoffel's symbols \
+            "How $M|M$ changes is in Christoffel's symbols \
              $Γ_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i)|\\Gamma_{ijk} = \\tfrac12 \\left( \
              \\frac{\\partial M_{ij}}{\\partial q_k} + \\frac{\\partial M_{ik}}{\\partial q_j} - \
              \\frac{\\partial M_{jk}}{\\partial q_i} \\right)$, which are alike in their last two indices.",
         );
         if symbols.is_empty() {
-            self.text("Here M is constant, and all of them are zero; so is C.");
+            self.text("Here $M|M$ is constant, and all of them are zero; so is $C|C$.");
         } else {
             self.text("Those that are not zero, each with the derivatives that it comes from:");
         }
@@ -294,7 +294,7 @@ impl Lecture<'_, '_> {
             self.equation([Side::Math(name), Side::Math(sum), Side::Form(symbol.value.clone())]);
         }
         self.text("With these $C_ij = Σ_k Γ_ijk·q̇_k|C_{ij} = \\sum_k \\Gamma_{ijk} \\dot q_k$, so that $Ṁ = C + Cᵀ|\\dot M = C + C^T$:");
-        self.equation([Side::Math(math("C", "C")), C]);
+        self.equation([Side::Math(math("C", "C")), matrix]);
     }
 
     /// Half of the sum of those derivatives of entries of M that are not zero; equal ones once.
@@ -344,7 +344,7 @@ impl Lecture<'_, '_> {
         self.heading(7, "Gravity");
         match self.is_flat() {
             true => self.text("The forces of gravity, on the left-hand side, are $G = ∂V/∂q|G = \\partial V / \\partial q$:"),
-            false => self.text("The forces of gravity, on the left-hand side, are G, the rates of V along unit speeds:"),
+            false => self.text("The forces of gravity, on the left-hand side, are $G|G$, the rates of $V|V$ along unit speeds:"),
         }
         self.equation([Side::Math(math("G", "G")), Side::Matrix(equations.gravity_forces.clone())]);
     }
@@ -373,6 +373,10 @@ impl Lecture<'_, '_> {
                      \\frac{\\partial L}{\\partial q} = \\Upsilon$, with the forces $Υ|\\Upsilon$ of the joints. Row by row:",
                 );
                 for (i, row) in rows.iter().enumerate() {
+                    let mut of_row = words("Of ");
+                    of_row.push(Piece::Form(self.symbol(Argument::Q, i)));
+                    of_row.extend(words(":"));
+                    self.blocks.push(Block::Text(of_row));
                     let q = self.written(&self.symbol(Argument::Q, i));
                     let v = self.written(&self.symbol(Argument::V, i));
                     let by = |top: &str, x: &Math| {
@@ -408,44 +412,51 @@ impl Lecture<'_, '_> {
 
     fn state_space(&mut self, equations: &Equations) {
         self.heading(9, "The state space");
-        let (p, p_latex) = if equations.passive.is_some() { (" − P", " - P") } else { ("", "") };
-        let driven = self.model.actuated.len();
-        let b = if driven == self.model.tree.dof() { ["u", "u"] } else { ["B·u", "B u"] };
-        let [state, rate, v] = match self.is_flat() {
-            true => ["x = (q, q̇)|x = (q, \\dot q)", "q̇|\\dot q", "q̇|\\dot q"],
-            false => ["x = (q, v)|x = (q, v)", "v|v", "v|v"],
+        let (dof, driven) = (self.model.tree.dof(), self.model.actuated.len());
+        let is_flat = self.is_flat();
+        let state = if is_flat { "$x = (q, q̇)|x = (q, \\dot q)$" } else { "$x = (q, v)|x = (q, v)$" };
+        let motors = match driven {
+            _ if driven == dof => "the vector $u|u$ of the motors' forces drives it",
+            0 => "no motor drives it",
+            _ => {
+                "the vector $u|u$ of the motors' forces drives it, which the matrix $B|B$ of ones and zeros gives to their joints"
+            }
         };
-        let latex = |text: &str| text.split_once('|').map_or(text.to_owned(), |(_, latex)| latex.to_owned());
-        let unicode =
-            |text: &str| text.split_once('|').map_or(text.to_owned(), |(unicode, _)| unicode.to_owned());
-        let mut text = format!(
-            "The state is ${state}$, and what drives it is the vector u of the motors' forces. M is positive definite, so \
-             that the accelerations can be solved for: $ẋ = f(x, u)|\\dot x = f(x, u)$ is"
-        );
-        if driven < self.model.tree.dof() {
-            text += &format!(
-                ", with {driven} motors for {} degrees of freedom and the matrix B that says which is where,",
-                self.model.tree.dof()
+        self.text(&format!(
+            "The state is {state}, and {motors}. $M|M$ is positive definite, so that the equations can be solved for the \
+             accelerations, and $ẋ = f(x, u)|\\dot x = f(x, u)$ is"
+        ));
+        let (p, input) = (equations.passive.is_some(), driven);
+        let input = match input {
+            0 => ["", ""],
+            _ if driven == dof => ["u ", "u "],
+            _ => ["B·u ", "B u "],
+        };
+        let [v, v_latex] = if is_flat { ["q̇", "\\dot q"] } else { ["v", "v"] };
+        let rate = |unicode: &str, latex: &str| {
+            Side::Math(math(format!("d/dt {unicode}"), format!("\\tfrac{{d}}{{dt}} {latex}")))
+        };
+        match is_flat {
+            true => self.equation([rate("q", "q"), Side::Math(math(v, v_latex))]),
+            false => self.equation([rate("q", "q"), Side::Math(math("E(q)·v", "E(q)\\, v"))]),
+        }
+        self.equation([
+            rate(v, v_latex),
+            Side::Math(math(
+                format!("M⁻¹·({}− C·{v} − G{})", input[0], if p { " − P" } else { "" }),
+                format!(
+                    "M^{{-1}} \\left( {}- C {v_latex} - G{} \\right)",
+                    input[1],
+                    if p { " - P" } else { "" }
+                ),
+            )),
+        ]);
+        if !is_flat {
+            self.text(
+                "where $E(q)|E(q)$ turns linear velocities into the world's axes, and makes of angular velocities the rates of \
+                 quaternions, half of the product of both.",
             );
         }
-        self.text(&text);
-        let rate_of = if self.is_flat() { rate.to_owned() } else { "q̇|\\dot q".to_owned() };
-        if !self.is_flat() {
-            self.text("of the coordinates what the speeds make of them (a quaternion changes by half its product with the angular velocity), and of the speeds");
-        } else {
-            self.equation([Side::Math(math(
-                format!("d/dt q = {}", unicode(&rate_of)),
-                format!("\\frac{{d}}{{dt}} q = {}", latex(&rate_of)),
-            ))]);
-        }
-        let v = [unicode(v), latex(v)];
-        self.equation([Side::Math(math(
-            format!("d/dt {} = M⁻¹·({} − C·{} − G{p})", v[0], b[0], v[0]),
-            format!(
-                "\\frac{{d}}{{dt}} {} = M^{{-1}} \\left( {} - C {} - G{p_latex} \\right)",
-                v[1], b[1], v[1]
-            ),
-        ))]);
     }
 
     fn linear(&mut self, linear: &Linear) {
@@ -460,48 +471,55 @@ impl Lecture<'_, '_> {
         } else {
             self.text("The robot stays there, with no force of its motors.");
         }
-        self.text(
+        let is_driven = linear.inputs.columns() > 0;
+        let [forces, forces_latex] = if is_driven { ["B·δu", "B\\, \\delta u"] } else { ["0", "0"] };
+        self.text(&format!(
             "Small motions $δq|\\delta q$ about it, by small forces $δu|\\delta u$ more, obey \
-             $M₀·δq̈ + D₀·δq̇ + K₀·δq = B·δu|M_0\\, \\delta \\ddot q + D_0\\, \\delta \\dot q + K_0\\, \\delta q = B\\, \\delta u$ with",
-        );
+             $M₀·δq̈ + D₀·δq̇ + K₀·δq = {forces}|M_0\\, \\delta \\ddot q + D_0\\, \\delta \\dot q + K_0\\, \\delta q = {forces_latex}$ \
+             with",
+        ));
         let is_damped = linear.damping.entries().any(|(_, _, form)| !form.is_zero());
         self.equation([Side::Math(math("M₀", "M_0")), Side::Matrix(linear.mass_matrix.clone())]);
         if is_damped {
             self.equation([Side::Math(math("D₀", "D_0")), Side::Matrix(linear.damping.clone())]);
         }
         self.equation([Side::Math(math("K₀", "K_0")), Side::Matrix(linear.stiffness.clone())]);
-        if linear.inputs.columns() > 0 {
+        if is_driven {
             self.equation([Side::Math(math("B", "B")), Side::Matrix(linear.inputs.clone())]);
         }
         if !is_damped {
             self.text("and $D₀ = 0|D_0 = 0$, for nothing is damped.");
         }
+        let driven = if is_driven { ["+ M₀⁻¹·B·δu", "+ M_0^{-1} B\\, \\delta u"] } else { ["", ""] };
+        let damped = if is_damped {
+            ["− M₀⁻¹·D₀·δq̇ ", "- M_0^{-1} D_0\\, \\delta \\dot q "]
+        } else {
+            ["", ""]
+        };
         self.text(
-            "As a state space it is $δẋ = A·δx + B·δu|\\delta \\dot x = A\\, \\delta x + \\bar B\\, \\delta u$ with \
-             $δx = (δq, δq̇)|\\delta x = (\\delta q, \\delta \\dot q)$, and A has the rows \
-             $(0, 1)$ and $(−M₀⁻¹·K₀, −M₀⁻¹·D₀)|(-M_0^{-1} K_0, -M_0^{-1} D_0)$, the other matrix $0$ and \
-             $M₀⁻¹·B|M_0^{-1} B$.",
+            "As a state space, of the state $δx = (δq, δq̇)|\\delta x = (\\delta q, \\delta \\dot q)$, it is",
         );
-        if let Some(lower) = lower_rows(linear) {
-            self.text("Since M₀ is diagonal, these are easily written out; the lower half of A is");
+        self.equation([
+            Side::Math(math("d/dt δq", "\\tfrac{d}{dt} \\delta q")),
+            Side::Math(math("δq̇", "\\delta \\dot q")),
+        ]);
+        self.equation([
+            Side::Math(math("d/dt δq̇", "\\tfrac{d}{dt} \\delta \\dot q")),
+            Side::Math(math(
+                format!("−M₀⁻¹·K₀·δq {}{}", damped[0], driven[0]).trim_end(),
+                format!("-M_0^{{-1}} K_0\\, \\delta q {}{}", damped[1], driven[1]).trim_end(),
+            )),
+        ]);
+        if let Some(lower) = &linear.lower {
+            self.text(
+                "$M₀|M_0$ is diagonal, and the lower half of the state matrix A is easily written out:",
+            );
             self.equation([
                 Side::Math(math("(−M₀⁻¹·K₀, −M₀⁻¹·D₀)", "\\left( -M_0^{-1} K_0,\\ -M_0^{-1} D_0 \\right)")),
-                Side::Matrix(lower),
+                Side::Matrix(lower.clone()),
             ]);
         }
     }
-}
-
-/// `(−M₀⁻¹·K₀, −M₀⁻¹·D₀)` where M₀ is diagonal.
-fn lower_rows(linear: &Linear) -> Option<Matrix> {
-    let n = linear.mass_matrix.rows();
-    let is_diagonal = linear.mass_matrix.entries().all(|(i, j, form)| i == j || form.is_zero());
-    let entry = |form: &Form, i: usize| form.clone().over(linear.mass_matrix.entry(i, i).clone()).negative();
-    let row = |i: usize| {
-        let of = |matrix: &Matrix| (0..n).map(|j| entry(matrix.entry(i, j), i)).collect::<Vec<_>>();
-        [of(&linear.stiffness), of(&linear.damping)].concat()
-    };
-    is_diagonal.then(|| Matrix::of_rows((0..n).map(row).collect()))
 }
 
 /// A letter of a body.

@@ -16,13 +16,15 @@ pub(super) enum Kind {
 const HEAD: &str = "\
 \\documentclass[11pt]{article}
 \\usepackage[a4paper,margin=22mm]{geometry}
-\\usepackage{amsmath,amssymb}
+\\usepackage{amsmath,amssymb,graphicx}
 \\usepackage[T1]{fontenc}
 \\usepackage[utf8]{inputenc}
 \\setlength{\\parindent}{0pt}
 \\setlength{\\parskip}{1ex}
 \\allowdisplaybreaks
 \\setcounter{MaxMatrixCols}{20}
+% What is wider than the page is made smaller.
+\\newcommand{\\fitted}[1]{\\resizebox{\\ifdim\\width>\\linewidth\\linewidth\\else\\width\\fi}{!}{#1}}
 \\begin{document}
 ";
 
@@ -57,7 +59,8 @@ pub(super) fn written(blocks: &[Block], notation: &Notation, kind: Kind) -> Stri
                 text.push('\n');
             }
             (Block::Equation(sides), Kind::Whole) => {
-                text += &format!("\\[\n{}\n\\]\n\n", equation(sides, notation));
+                let equation = equation(sides, notation);
+                text += &format!("\\[\n\\fitted{{$\\displaystyle {equation}$}}\n\\]\n\n");
             }
             (Block::Equation(sides), Kind::Markdown) => {
                 text += &format!("$$\n{}\n$$\n\n", equation(sides, notation));

@@ -34,6 +34,11 @@ fn the_commands_of_the_readme_run() {
         std::fs::create_dir_all(here.join(file.parent().unwrap())).unwrap();
         std::fs::copy(root.join(&file), here.join(&file)).unwrap();
     }
+    for example in ["robojudge", "pendulum"] {
+        let file = Path::new("examples").join(example).with_extension("rs");
+        std::fs::create_dir_all(here.join("examples")).unwrap();
+        std::fs::copy(root.join(&file), here.join(&file)).unwrap();
+    }
     let mut commands = 0;
     for line in block.lines() {
         let words = words(line);

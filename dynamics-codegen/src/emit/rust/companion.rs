@@ -54,6 +54,7 @@ impl Emitter<'_, '_> {
             parameters: &self.parameters,
             literals: self.literals(),
             sizes: self.sizes,
+            closed: None,
         };
         let body = body::write(program, &self.fields, &context, 3);
         let _ = writeln!(

@@ -8,6 +8,7 @@ use std::fmt::Write as _;
 use super::names::CALLED;
 use crate::emit::body::{Binding, Language, Named, Statement, Sums, last_readers};
 use crate::emit::names::{Names, component};
+use crate::mechanics::closed::ClosedForms;
 use crate::mechanics::equations::Argument;
 use crate::passes::Sizes;
 
@@ -38,6 +39,8 @@ pub(super) struct Context<'a> {
     pub(super) literals: Literals,
     /// The sizes of the arguments.
     pub(super) sizes: Sizes,
+    /// The robot's equations as people write them, where these are short.
+    pub(super) closed: Option<&'a ClosedForms>,
 }
 
 impl Language for Context<'_> {

@@ -24,7 +24,14 @@ pub fn implementation(input: &Input<'_, '_>) -> String {
     text.push_str(&emitter.alias());
     let _ = writeln!(text, "    use {}::__private::*;\n", emitter.item.core);
     let shared = emitter.shared(&written);
-    for part in [emitter.prepare(), emitter.check(), emitter.table(), emitter.mechanism(&written), shared] {
+    for part in [
+        emitter.prepare(),
+        emitter.check(),
+        emitter.equations(),
+        emitter.table(),
+        emitter.mechanism(&written),
+        shared,
+    ] {
         text.push_str(&part);
     }
     for trait_ in Trait::OF_ROBOT {
@@ -158,7 +165,14 @@ impl<'m, 'g> Emitter<'m, 'g> {
     /// What a body of the companion's impls is written with.
     pub(super) fn context<'a>(&'a self, companion: &'a str) -> Context<'a> {
         let (fields, parameters) = (&self.fields, &self.parameters);
-        Context { companion, fields, parameters, literals: self.literals(), sizes: self.sizes }
+        Context {
+            companion,
+            fields,
+            parameters,
+            literals: self.literals(),
+            sizes: self.sizes,
+            closed: self.input.closed,
+        }
     }
 
     fn methods(&self) -> Vec<Written> {
@@ -232,8 +246,12 @@ impl<'m, 'g> Emitter<'m, 'g> {
         if self.is_prepared() {
             text.push_str(&open(&self.robot()));
             for Written { method, .. } in chosen {
+                let documentation = match self.input.closed {
+                    Some(_) => indented(&methods::documentation(*method, &self.context(""))),
+                    None => String::new(),
+                };
                 let forwarding = self.forwarding(*method, "&self", "self.prepare().");
-                text.push_str(&declared(*method, &forwarding));
+                text.push_str(&declared(*method, &(documentation + &forwarding)));
             }
             text.push_str(&check);
             text.push_str("    }\n\n");

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::context::Context;
+use super::equations;
 use crate::emit::body::{self, Body};
 use crate::emit::names;
 use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
@@ -29,7 +30,7 @@ pub(super) fn write(
 ) -> Written {
     let CompiledMethod { method, plan, cost, shares } = compiled;
     let mut text = String::new();
-    let _ = writeln!(text, "    /// {}", headline(*method, context.sizes.inputs.dof));
+    text.push_str(&documentation(*method, context));
     let operations = describe(*cost);
     let _ = match plan {
         Plan::Table { in_lanes, .. } => {
@@ -66,6 +67,19 @@ pub(super) fn write(
         }
     });
     Written { method: *method, cost: *cost, text, shared }
+}
+
+/// The first lines of a method's documentation: what it is, and its closed form.
+pub(super) fn documentation(method: Method, context: &Context<'_>) -> String {
+    let mut text = format!("    /// {}\n", headline(method, context.sizes.inputs.dof));
+    let closed = equations::documentation(context.closed, method);
+    if !closed.is_empty() {
+        text.push_str("    ///\n");
+    }
+    for line in closed {
+        let _ = writeln!(text, "    /// {line}");
+    }
+    text
 }
 
 fn straight_line(

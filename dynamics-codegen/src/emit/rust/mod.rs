@@ -4,6 +4,7 @@ mod check;
 mod companion;
 mod configuration;
 mod context;
+mod equations;
 mod frames;
 mod item;
 mod items;
@@ -17,6 +18,7 @@ pub use item::{Form, Item};
 pub use items::implementation;
 pub use stub::stub;
 
+use crate::mechanics::closed::ClosedForms;
 use crate::model::Model;
 use crate::passes::Compiled;
 
@@ -28,4 +30,6 @@ pub struct Input<'m, 'g> {
     pub model: &'m Model<'g>,
     /// Its programs.
     pub compiled: &'m Compiled<'g>,
+    /// Its equations as people write them, where these are short.
+    pub closed: Option<&'m ClosedForms>,
 }

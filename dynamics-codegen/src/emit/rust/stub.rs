@@ -70,7 +70,10 @@ pub fn stub(input: &syn::DeriveInput) -> TokenStream {
             type __Robot #declared = #name #arguments;
             const _: () = {
             use #core::__private::*;
-            impl<#parameters> #robot #bounds { #prepare }
+            impl<#parameters> #robot #bounds {
+                #prepare
+                #vis const fn equations() -> Equations { loop {} }
+            }
             impl<#parameters> Mechanism for #robot #bounds {
                 const NQ: usize = #nq;
                 const NV: usize = #nv;

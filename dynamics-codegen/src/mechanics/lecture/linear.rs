@@ -39,12 +39,22 @@ pub(super) fn linear<'g>(
             .flat_map(|i| columns.iter().map(move |column| column[i].tangent).collect::<Vec<_>>())
             .collect::<Vec<_>>()
     };
-    let all = [M.concat(), columns(&along), columns(&damped), hold].concat();
+    let (K, D) = (columns(&along), columns(&damped));
+    let is_diagonal = (0..n * n).all(|k| k / n == k % n || M[k / n][k % n].is_zero());
+    let solved = |k: usize, entry: &Expr<'g>| -(*entry / M[k / n][k / n]);
+    let lower = (0..if is_diagonal { n } else { 0 }).flat_map(|i| {
+        let row = |of: &[Expr<'g>]| (i * n..(i + 1) * n).map(|k| solved(k, &of[k])).collect::<Vec<_>>();
+        [row(&K), row(&D)].concat()
+    });
+    let lower: Vec<Expr<'g>> = lower.collect();
+    let all = [M.concat(), K, D, hold, lower].concat();
     let mut forms = close(graph, &mut notation.clone(), &all).forms.into_iter();
     let mut square = || Matrix::of_rows((0..n).map(|_| forms.by_ref().take(n).collect()).collect());
     let (mass_matrix, stiffness, damping) = (square(), square(), square());
-    let hold = Matrix::vector(forms.collect());
+    let hold = Matrix::vector(forms.by_ref().take(n).collect());
+    let lower =
+        is_diagonal.then(|| Matrix::of_rows((0..n).map(|_| forms.by_ref().take(2 * n).collect()).collect()));
     let is_driven = |i: usize, input: &usize| if *input == i { Form::ONE } else { Form::ZERO };
     let inputs = (0..n).map(|i| model.actuated.iter().map(|input| is_driven(i, input)).collect());
-    Ok(Linear { mass_matrix, stiffness, damping, hold, inputs: Matrix::of_rows(inputs.collect()) })
+    Ok(Linear { mass_matrix, stiffness, damping, hold, lower, inputs: Matrix::of_rows(inputs.collect()) })
 }

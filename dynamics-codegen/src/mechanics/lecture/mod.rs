@@ -10,8 +10,6 @@
 mod figure;
 mod linear;
 mod steps;
-#[cfg(test)]
-mod tests;
 
 use super::closed::notation;
 use crate::closed::{Form, Matrix, Notation, Swelling};
@@ -24,7 +22,7 @@ pub const MOST_DOF: usize = 12;
 
 /// All steps. Each part ends where it would be too long to read.
 #[derive(Clone, Debug)]
-pub struct Derivation {
+pub struct Lecture {
     /// What the symbols are called: those of [`Inputs`].
     pub notation: Notation,
     /// The robot where its coordinates are zero.
@@ -160,12 +158,14 @@ pub struct Linear {
     pub damping: Matrix,
     /// `G + passive` there: the forces that hold the robot.
     pub hold: Matrix,
+    /// `(−M₀⁻¹·K₀, −M₀⁻¹·D₀)`, n×2n, where M₀ is diagonal.
+    pub lower: Option<Matrix>,
     /// Which input drives which speed, n×m.
     pub inputs: Matrix,
 }
 
 /// Derives the equations of `model`, step by step; of more than [`MOST_DOF`] degrees of freedom the figure alone.
-pub fn derivation<'g>(model: &Model<'g>, graph: &'g Graph) -> Derivation {
+pub fn lecture<'g>(model: &Model<'g>, graph: &'g Graph) -> Lecture {
     let notation = notation(model);
     let figure = figure::figure(model, graph, &notation);
     let steps = if model.tree.dof() > MOST_DOF { Err(Swelling) } else { Steps::new(model, graph, &notation) };
@@ -181,5 +181,5 @@ pub fn derivation<'g>(model: &Model<'g>, graph: &'g Graph) -> Derivation {
         Ok(_) => linear::linear(model, graph, &notation),
         Err(Swelling) => Err(Swelling),
     };
-    Derivation { notation, figure, bodies, equations, linear }
+    Lecture { notation, figure, bodies, equations, linear }
 }
