@@ -49,7 +49,7 @@ impl Text<'_, '_> {
 
     fn figure(&mut self) {
         self.heading(1, "The robot, where its coordinates are zero");
-        let figure = &self.lecture.figure;
+        let Ok(figure) = &self.lecture.figure else { return self.too_long("The figure") };
         let joints = figure.joints.iter().map(|joint| self.joint(joint)).collect();
         self.blocks.push(Block::List(joints));
         let mut gravity = words("All falls with the acceleration $g⃗|\\vec g$ = ");
@@ -215,11 +215,25 @@ impl Text<'_, '_> {
         if equations.rotors.is_some() {
             sum += ", and over the rotors, which turn with no body";
         }
+        if equations.terms.is_some() {
+            sum += ", with the terms below";
+        }
         self.text(&format!("{sum}, and the Lagrangian $L = T − V|L = T - V$:"));
         if !equations.potential_at_rest.is_zero() {
             let at_rest = Side::Form(equations.potential_at_rest.clone());
             self.text("What stands still in the world has a part in $V|V$:");
             self.equation([Side::Math(math("V₀", "V_0")), at_rest]);
+        }
+        if let Some(terms) = &equations.terms {
+            self.text("Terms of the energies that belong to no body:");
+            for (name, latex, form) in [
+                ("T_terms", "T_{\\text{terms}}", &terms.kinetic_energy),
+                ("V_terms", "V_{\\text{terms}}", &terms.potential_energy),
+            ] {
+                if !form.is_zero() {
+                    self.equation([Side::Math(math(name, latex)), Side::Form(form.clone())]);
+                }
+            }
         }
         for (letter, form) in [
             ("T", &equations.kinetic_energy),
@@ -250,6 +264,11 @@ impl Text<'_, '_> {
         if let Some(rotors) = &equations.rotors {
             self.text("The rotors add, as the joints feel them:");
             self.equation([Side::Math(math("M_rotors", "M_{\\text{rotors}}")), Side::Matrix(rotors.clone())]);
+        }
+        if let Some(terms) = equations.terms.as_ref().filter(|terms| !terms.kinetic_energy.is_zero()) {
+            self.text("The terms of the kinetic energy add:");
+            let name = math("∂²T_terms/∂q̇²", "\\partial^2 T_{\\text{terms}}/\\partial \\dot q^2");
+            self.equation([Side::Math(name), Side::Matrix(terms.mass_matrix.clone())]);
         }
         self.text("In all:");
         self.equation([Side::Math(math("M", "M")), Side::Matrix(equations.mass_matrix.clone())]);

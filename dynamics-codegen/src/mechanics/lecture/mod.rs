@@ -12,9 +12,9 @@ mod linear;
 mod steps;
 
 use super::closed::notation;
-use crate::closed::{Form, Matrix, Notation, Swelling};
+use crate::closed::{Closed, Form, Limits, Matrix, Notation, Swelling, close};
 use crate::model::{Model, Motion};
-use crate::symbolic::Graph;
+use crate::symbolic::{Expr, Graph};
 use steps::Steps;
 
 /// A robot of more degrees of freedom is not derived step by step: it would fill a book.
@@ -26,7 +26,7 @@ pub struct Lecture {
     /// What the symbols are called: those of [`Inputs`].
     pub notation: Notation,
     /// The robot where its coordinates are zero.
-    pub figure: Figure,
+    pub figure: Result<Figure, Swelling>,
     /// The bodies that move and have mass, parents before children.
     pub bodies: Result<Vec<Body>, Swelling>,
     /// Their equations.
@@ -99,6 +99,8 @@ pub struct Body {
 pub struct Equations {
     /// The inertias of rotors, which turn with no body, on the diagonal of M; none without rotors.
     pub rotors: Option<Matrix>,
+    /// Terms of one's own in the energies; none if there are none.
+    pub terms: Option<Terms>,
     /// What the mass that stands still adds to V.
     pub potential_at_rest: Form,
     /// `T`
@@ -121,6 +123,17 @@ pub struct Equations {
     pub passive: Option<Matrix>,
     /// `M·a + C·v + G`, and what acts passively.
     pub forces: Matrix,
+}
+
+/// What terms of one's own add to the energies.
+#[derive(Clone, Debug)]
+pub struct Terms {
+    /// To `T`.
+    pub kinetic_energy: Form,
+    /// To `V`.
+    pub potential_energy: Form,
+    /// To `M`: `∂²T/∂v²`.
+    pub mass_matrix: Matrix,
 }
 
 /// `Γ_ijk = ½ (∂M_ij/∂q_k + ∂M_ik/∂q_j − ∂M_jk/∂q_i)`
@@ -182,4 +195,10 @@ pub fn lecture<'g>(model: &Model<'g>, graph: &'g Graph) -> Lecture {
         Err(Swelling) => Err(Swelling),
     };
     Lecture { notation, figure, bodies, equations, linear }
+}
+
+/// Expressions that are written without names for their parts.
+fn written<'g>(graph: &'g Graph, notation: &Notation, exprs: &[Expr<'g>]) -> Result<Vec<Form>, Swelling> {
+    let Closed { definitions, forms } = close(graph, &mut notation.clone(), exprs, Limits::READABLE)?;
+    if definitions.is_empty() { Ok(forms) } else { Err(Swelling) }
 }

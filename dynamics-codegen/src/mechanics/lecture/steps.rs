@@ -1,7 +1,7 @@
 //! The steps of a derivation, made from each other in the normal form.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::{Body, Christoffel, Equations, Row};
+use super::{Body, Christoffel, Equations, Row, Terms};
 use crate::closed::{Canonical, Form, Matrix, Notation, Polynomial, Swelling};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
@@ -62,6 +62,8 @@ pub(super) struct Steps<'m, 'g> {
     a: Vec<SymbolId>,
     passive: Vec<Expr<'g>>,
     at_rest: Expr<'g>,
+    /// What terms of one's own add to T and V.
+    terms: [Expr<'g>; 2],
     /// Where speeds are no rates of coordinates, C and G by the plain recursion.
     by_brackets: Option<(Vec<Vec<Expr<'g>>>, Vec<Expr<'g>>)>,
     /// Of all bodies.
@@ -82,8 +84,12 @@ impl<'m, 'g> Steps<'m, 'g> {
         let bodies = moving(model, &q);
         let passive = plain::passive::forces(&model.tree, &q, &v);
         let at_rest = -model.tree.gravity.dot(model.tree.base.first);
+        let terms = [
+            plain::kinetic_terms(&model.tree, &q, &v),
+            plain::potential_terms(&model.tree, &q),
+        ];
         let n = inputs.dof;
-        let mut exprs: Vec<Expr<'g>> = [&q[..], &v, &a, &passive, &[at_rest]].concat();
+        let mut exprs: Vec<Expr<'g>> = [&q[..], &v, &a, &passive, &[at_rest], &terms].concat();
         for body in &bodies {
             exprs.extend([body.mass, body.potential]);
             exprs.extend(body.pose.translation.0.into_iter().chain(body.pose.rotation.0.concat()));
@@ -108,6 +114,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             a,
             passive,
             at_rest,
+            terms,
             by_brackets,
             M,
             T: zero(),
@@ -190,6 +197,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         let rotors = self.rotors()?;
         let at_rest = self.canonical.polynomial(self.at_rest)?;
         self.V = self.V.plus(Number::ONE, &at_rest);
+        let terms = self.terms()?;
         let L = self.T.plus(-Number::ONE, &self.V);
         let (christoffel, C, G) = match self.by_brackets.take() {
             None => {
@@ -241,6 +249,13 @@ impl<'m, 'g> Steps<'m, 'g> {
                 None => None,
                 Some(rotors) => Some(symmetric(&rotors, &mut forms)?),
             },
+            terms: match terms {
+                None => None,
+                Some((energies, mass)) => {
+                    let [kinetic_energy, potential_energy, _] = three(forms(&energies)?);
+                    Some(Terms { kinetic_energy, potential_energy, mass_matrix: symmetric(&mass, &mut forms)? })
+                }
+            },
             potential_at_rest: forms(&[at_rest])?.swap_remove(0),
             kinetic_energy,
             potential_energy,
@@ -279,6 +294,29 @@ impl<'m, 'g> Steps<'m, 'g> {
             }
         }
         Ok(Some(added))
+    }
+
+    /// Adds terms of one's own to T, V and M, and returns what they are, and what they add to M.
+    fn terms(&mut self) -> Result<Option<([Polynomial; 2], Vec<Vec<Polynomial>>)>, Swelling> {
+        let [kinetic, potential] = self.terms;
+        let [kinetic, potential] = [self.canonical.polynomial(kinetic)?, self.canonical.polynomial(potential)?];
+        if kinetic.is_zero() && potential.is_zero() {
+            return Ok(None);
+        }
+        self.T = self.T.plus(Number::ONE, &kinetic);
+        self.V = self.V.plus(Number::ONE, &potential);
+        let mut added = Vec::with_capacity(self.v.len());
+        for (i, speed) in self.v.clone().into_iter().enumerate() {
+            let momentum = self.canonical.derivative(&kinetic, speed)?;
+            let mut row = Vec::with_capacity(self.v.len());
+            for (j, speed) in self.v.clone().into_iter().enumerate() {
+                let entry = self.canonical.derivative(&momentum, speed)?;
+                self.M[i][j] = self.M[i][j].plus(Number::ONE, &entry);
+                row.push(entry);
+            }
+            added.push(row);
+        }
+        Ok(Some(([kinetic, potential], added)))
     }
 
     fn christoffel(&mut self) -> Result<Vec<Symbol>, Swelling> {

@@ -103,13 +103,13 @@ fn squared_distance<S: Scalar>(tree: &Tree<S>, [a, b]: [Option<usize>; 2], q: &[
 }
 
 /// The terms of `V`, J.
-pub(super) fn potential_energy<S: Scalar>(tree: &Tree<S>, q: &[S]) -> S {
+pub fn potential_energy<S: Scalar>(tree: &Tree<S>, q: &[S]) -> S {
     let terms = tree.terms.potential.iter();
     terms.fold(S::zero(), |sum, term| sum + at_rest(term, tree, q))
 }
 
 /// The terms of `T`, J.
-pub(super) fn kinetic_energy<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> S {
+pub fn kinetic_energy<S: Scalar>(tree: &Tree<S>, q: &[S], v: &[S]) -> S {
     let terms = tree.terms.kinetic.iter();
     terms.fold(S::zero(), |sum, term| sum + value(term, tree, q, v))
 }
