@@ -3,6 +3,7 @@
 mod engine;
 mod file;
 mod quantity;
+mod row;
 mod study;
 mod table;
 mod tape;
