@@ -34,53 +34,55 @@ impl FixedStep {
     }
 }
 
-/// How the links of a robot move, and the first of the coordinates and of the speeds of each.
+/// How the coordinates of a robot move: those of each joint together, by the first of them and of their speeds.
 #[derive(Clone)]
 pub(crate) struct Links(Vec<(Motion, usize, usize)>);
 
 impl Links {
     /// Those of a tree.
     pub(crate) fn of(tree: &Tree<f64>) -> Self {
-        Self(tree.links.iter().map(|link| (link.motion, link.drive.q, link.drive.v)).collect())
+        let mut drives: Vec<(Motion, usize, usize)> = vec![];
+        for link in &tree.links {
+            // Several links may share a coordinate, which moves once.
+            if drives.iter().all(|(_, q, _)| *q != link.drive.q) {
+                drives.push((link.motion, link.drive.q, link.drive.v));
+            }
+        }
+        Self(drives)
     }
 
-    /// `q ⊕ δ`, as `Configuration::integrate`.
-    pub(crate) fn integrate<T: Scalar>(&self, q: &[T], delta: &[T]) -> Vec<T> {
-        let mut moved = q.to_vec();
+    /// `q ⊕ δ`, as `Configuration::integrate`, in place of q.
+    pub(crate) fn integrate<T: Scalar>(&self, q: &mut [T], delta: &[T]) {
         for &(motion, at, from) in &self.0 {
             match motion {
-                // Several links may share a coordinate.
-                Motion::Revolute | Motion::Prismatic => moved[at] = q[at] + delta[from],
+                Motion::Revolute | Motion::Prismatic => q[at] += delta[from],
                 Motion::Ball => {
                     let ball = integrate_ball(part::<T, 4>(q, at), part::<T, 3>(delta, from));
-                    moved[at..at + 4].copy_from_slice(&ball);
+                    q[at..at + 4].copy_from_slice(&ball);
                 }
                 Motion::Free => {
                     let free = integrate_free(part::<T, 7>(q, at), part::<T, 6>(delta, from));
-                    moved[at..at + 7].copy_from_slice(&free);
+                    q[at..at + 7].copy_from_slice(&free);
                 }
             }
         }
-        moved
     }
 
-    /// `δ̇` where `q ⊕ δ` moves with the velocity `v`, as `Configuration::rate`.
-    pub(crate) fn rate<T: Scalar>(&self, delta: &[T], v: &[T]) -> Vec<T> {
-        let mut rate = v.to_vec();
+    /// `δ̇` where `q ⊕ δ` moves with the velocity `v`, as `Configuration::rate`, in place of v.
+    pub(crate) fn rate<T: Scalar>(&self, delta: &[T], v: &mut [T]) {
         for &(motion, _, from) in &self.0 {
             match motion {
                 Motion::Revolute | Motion::Prismatic => {}
                 Motion::Ball => {
                     let ball = ball_rate(part::<T, 3>(delta, from), part::<T, 3>(v, from));
-                    rate[from..from + 3].copy_from_slice(&ball);
+                    v[from..from + 3].copy_from_slice(&ball);
                 }
                 Motion::Free => {
                     let free = free_rate(part::<T, 6>(delta, from), part::<T, 6>(v, from));
-                    rate[from..from + 6].copy_from_slice(&free);
+                    v[from..from + 6].copy_from_slice(&free);
                 }
             }
         }
-        rate
     }
 }
 
@@ -100,11 +102,15 @@ impl Flow for Unforced<'_, '_> {
     type Velocity = Vec<f64>;
 
     fn integrate(&self, q: &Vec<f64>, delta: &Vec<f64>) -> Vec<f64> {
-        self.links.integrate(q, delta)
+        let mut moved = q.clone();
+        self.links.integrate(&mut moved, delta);
+        moved
     }
 
     fn rate(&self, delta: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
-        self.links.rate(delta, v)
+        let mut rate = v.clone();
+        self.links.rate(delta, &mut rate);
+        rate
     }
 
     fn acceleration(&mut self, _time: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {

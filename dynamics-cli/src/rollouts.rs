@@ -2,6 +2,7 @@
 
 mod engine;
 mod file;
+mod row;
 mod study;
 mod table;
 mod tape;

@@ -3,8 +3,9 @@
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
 use dynamics_codegen::passes::Program;
 use dynamics_core::lanes::{Lanes, f64x8};
-use dynamics_core::simulate::Flow;
+use dynamics_core::simulate::{Flow, Vector};
 
+use super::row::{Row, Shelf};
 use super::study::{Study, Target};
 use super::tape::{Machine, Tape};
 use crate::failure::{Failure, Problem};
@@ -151,9 +152,7 @@ impl Plan<'_> {
     /// The lanes at the start of rollouts, the last of which fills the lanes that are left.
     fn mover(&self, rollouts: &[Rollout]) -> Mover<'_> {
         let Sizes { parameters, q, v } = self.engine.sizes;
-        let mut mover = Mover::new(self.engine);
-        let splat = |numbers: &[f64]| numbers.iter().map(|&x| Wide::from(x)).collect::<Vec<_>>();
-        (mover.q, mover.v) = (splat(self.start.0), splat(self.start.1));
+        let mut mover = Mover::new(self.engine, self.start.0, self.start.1);
         let mut fields = vec![Wide::from(0.0); parameters];
         for (k, axis) in self.study.axes.iter().enumerate() {
             let of_lane =
@@ -161,8 +160,8 @@ impl Plan<'_> {
             let value = Wide::from(std::array::from_fn(of_lane));
             match axis.target {
                 Target::Field(field) => fields[field] = value,
-                Target::Coordinate(at) => mover.q[at] = value,
-                Target::Speed(at) => mover.v[at] = value,
+                Target::Coordinate(at) => mover.q.entries_mut()[at] = value,
+                Target::Speed(at) => mover.v.entries_mut()[at] = value,
             }
         }
         let mut preparation = Machine::new(&self.engine.preparation);
@@ -181,43 +180,53 @@ impl Plan<'_> {
 struct Mover<'e> {
     flow: Unforced<'e>,
     energies: [Machine<'e, Wide>; 3],
-    q: Vec<Wide>,
-    v: Vec<Wide>,
+    q: Row,
+    v: Row,
 }
 
 /// Robots in lanes that nothing drives.
 struct Unforced<'e> {
     links: &'e Links,
     acceleration: Machine<'e, Wide>,
+    shelf: Shelf,
 }
 
 impl Flow for Unforced<'_> {
     type Scalar = Wide;
-    type Position = Vec<Wide>;
-    type Velocity = Vec<Wide>;
+    type Position = Row;
+    type Velocity = Row;
 
-    fn integrate(&self, q: &Vec<Wide>, delta: &Vec<Wide>) -> Vec<Wide> {
-        self.links.integrate(q, delta)
+    fn integrate(&self, q: &Row, delta: &Row) -> Row {
+        let mut moved = q.clone();
+        self.links.integrate(moved.entries_mut(), delta.entries());
+        moved
     }
 
-    fn rate(&self, delta: &Vec<Wide>, v: &Vec<Wide>) -> Vec<Wide> {
-        self.links.rate(delta, v)
+    fn rate(&self, delta: &Row, v: &Row) -> Row {
+        let mut rate = v.clone();
+        self.links.rate(delta.entries(), rate.entries_mut());
+        rate
     }
 
-    fn acceleration(&mut self, _time: Wide, q: &Vec<Wide>, v: &Vec<Wide>) -> Vec<Wide> {
-        load(&mut self.acceleration, q, v);
+    fn acceleration(&mut self, _time: Wide, q: &Row, v: &Row) -> Row {
+        load(&mut self.acceleration, q.entries(), v.entries());
         self.acceleration.run();
-        self.acceleration.results().collect()
+        self.shelf.row(self.acceleration.results())
     }
 }
 
 impl<'e> Mover<'e> {
-    fn new(engine: &'e Engine) -> Self {
+    /// At a position, with a velocity.
+    fn new(engine: &'e Engine, q: &[f64], v: &[f64]) -> Self {
+        let shelf = Shelf::default();
+        let row = |numbers: &[f64]| shelf.row(numbers.iter().map(|&x| Wide::from(x)));
+        let (q, v) = (row(q), row(v));
+        let acceleration = Machine::new(&engine.acceleration);
         Self {
-            flow: Unforced { links: &engine.links, acceleration: Machine::new(&engine.acceleration) },
+            flow: Unforced { links: &engine.links, acceleration, shelf },
             energies: engine.energies.each_ref().map(Machine::new),
-            q: vec![],
-            v: vec![],
+            q,
+            v,
         }
     }
 
@@ -229,7 +238,12 @@ impl<'e> Mover<'e> {
     /// Notes which rollouts are no longer finite; they were so at `before`.
     fn note_losses(&self, before: f64, rollouts: &mut [Rollout]) {
         // Zero where all is finite, else not a number.
-        let nothing = self.q.iter().chain(&self.v).fold(Wide::from(0.0), |sum, x| sum + *x * Wide::from(0.0));
+        let nothing = self
+            .q
+            .entries()
+            .iter()
+            .chain(self.v.entries())
+            .fold(Wide::from(0.0), |sum, x| sum + *x * Wide::from(0.0));
         let nothing = nothing.to_array();
         if nothing.iter().all(|x| x.is_finite()) {
             return;
@@ -244,14 +258,14 @@ impl<'e> Mover<'e> {
     /// Adds a sample to each rollout that is not lost. One whose energy is not finite is lost.
     fn sample(&mut self, time: f64, rollouts: &mut [Rollout]) {
         let energies = self.energies.each_mut().map(|machine| {
-            load(machine, &self.q, &self.v);
+            load(machine, self.q.entries(), self.v.entries());
             machine.run();
             machine.results().next().unwrap_or(Wide::from(0.0))
         });
         let total = energies[0] + energies[1] + energies[2];
         let numbers: Vec<[f64; LANES]> = std::iter::once(Wide::from(time))
-            .chain(self.q.iter().copied())
-            .chain(self.v.iter().copied())
+            .chain(self.q.entries().iter().copied())
+            .chain(self.v.entries().iter().copied())
             .chain(energies)
             .chain([total])
             .map(Wide::to_array)
