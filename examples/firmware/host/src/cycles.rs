@@ -183,7 +183,7 @@ mod tests {
             (&[0xD0, 0xE8, 0x01, 0xF0], None),            // tbb [r0, r1]
             (&[0x18, 0x47], None),                        // bx r3
         ] {
-            assert_eq!(timing(code).map(|timing| cycles_alone(timing)), cycles, "{code:02x?}");
+            assert_eq!(timing(code).map(cycles_alone), cycles, "{code:02x?}");
         }
     }
 
