@@ -3,7 +3,7 @@
 use super::Formula;
 use super::cursor::{Cursor, Result};
 use super::formula::Words;
-use crate::diagnostics::Place;
+use crate::diagnostics::{Code, Diagnostic, Place};
 
 /// A term as written.
 #[derive(Clone, Debug)]
@@ -37,6 +37,15 @@ impl TermKind {
         Self::ALL.iter().find(|(_, kind)| *kind == self).map_or("", |(name, _)| name)
     }
 
+    /// As it is written.
+    fn example(self) -> &'static str {
+        match self {
+            Self::Potential => "#[potential(k / 2 * (r - r0)^2)]",
+            Self::Dissipation => "#[dissipation(c / 2 * dot(r)^2)]",
+            Self::Kinetic => "#[kinetic(m / 2 * dot(r)^2)]",
+        }
+    }
+
     /// The kind of which an attribute has the name.
     pub(super) fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, kind)| *kind)
@@ -46,22 +55,11 @@ impl TermKind {
 impl TermSpec {
     /// Reads the contents of the attribute.
     pub(super) fn parse(kind: TermKind, input: Cursor, place: Place) -> Result<Self> {
-        let form = |mistake: crate::diagnostics::Diagnostic| match mistake.code {
-            crate::diagnostics::Code::Syntax => mistake.help(format!("write `{}`", kind.example())),
+        let form = |mistake: Diagnostic| match mistake.code {
+            Code::Syntax => mistake.help(format!("write `{}`", kind.example())),
             _ => mistake,
         };
         let formula = Formula::parse_in(input, Words::OfTerms).map_err(form)?;
         Ok(Self { kind, formula, place })
-    }
-}
-
-impl TermKind {
-    /// As it is written.
-    fn example(self) -> &'static str {
-        match self {
-            Self::Potential => "#[potential(k / 2 * (r - r0)^2)]",
-            Self::Dissipation => "#[dissipation(c / 2 * dot(r)^2)]",
-            Self::Kinetic => "#[kinetic(m / 2 * dot(r)^2)]",
-        }
     }
 }
