@@ -16,6 +16,7 @@ pub mod lagrange;
 pub mod method;
 pub mod motion;
 pub mod normal;
+pub mod notation;
 pub mod passive;
 pub mod plain;
 pub mod regressor;
