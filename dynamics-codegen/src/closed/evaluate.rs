@@ -1,7 +1,7 @@
-//! The value of a form at numbers.
+//! The value of a form at numbers, and the expression that it stands for.
 
 use super::Form;
-use crate::symbolic::{Number, Real, SymbolId};
+use crate::symbolic::{Expr, Number, Real, SymbolId};
 
 /// The value of a form at numbers.
 pub fn evaluate<R: Real>(form: &Form, input: &impl Fn(SymbolId) -> R) -> R {
@@ -23,4 +23,26 @@ pub fn evaluate<R: Real>(form: &Form, input: &impl Fn(SymbolId) -> R) -> R {
         Form::Cos(inner) => of(inner).cos(),
         Form::Root(inner) => of(inner).sqrt(),
     }
+}
+
+/// The expression that a form stands for, or `None` if it divides by the constant zero, or takes a root of less.
+pub fn expression<'g>(form: &Form, input: &impl Fn(SymbolId) -> Expr<'g>) -> Option<Expr<'g>> {
+    let of = |form: &Form| expression(form, input);
+    Some(match form {
+        Form::Number(value) => Expr::Constant(*value),
+        Form::Symbol(symbol) => input(*symbol),
+        Form::Negative(inner) => -of(inner)?,
+        Form::Sum(terms) => terms.iter().try_fold(Expr::ZERO, |sum, term| Some(sum + of(term)?))?,
+        Form::Product(factors) => {
+            factors.iter().try_fold(Expr::ONE, |product, factor| Some(product * of(factor)?))?
+        }
+        Form::Quotient(above, below) => of(above)?.checked_div(of(below)?)?,
+        Form::Power(base, n) => {
+            let base = of(base)?;
+            (0..*n).fold(Expr::ONE, |power, _| power * base)
+        }
+        Form::Sin(inner) => of(inner)?.sin(),
+        Form::Cos(inner) => of(inner)?.cos(),
+        Form::Root(inner) => of(inner)?.sqrt()?,
+    })
 }

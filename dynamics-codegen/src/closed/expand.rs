@@ -3,11 +3,14 @@
 use super::Notation;
 use super::monomial::Monomial;
 use super::polynomial::Polynomial;
-use super::ring::{Result, Ring, Swelling};
+use super::ring::{Result, Ring, Swelling, Variable};
 use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId};
 
 /// Angles are taken this many times at most; beyond, the multiple is an angle of its own.
 const MULTIPLES: i64 = 8;
+
+/// Nodes that have names.
+pub(super) type Cuts = NodeMap<SymbolId>;
 
 /// What is known of the nodes of a graph.
 pub(super) struct Expansion<'g> {
@@ -26,9 +29,27 @@ impl<'g> Expansion<'g> {
         exprs: &[Expr<'g>],
         work: usize,
     ) -> Result<Self> {
-        let (symbols, arguments) = used(graph, exprs);
+        Self::between(graph, notation, exprs, &NodeMap::new(graph), work)
+    }
+
+    /// The same where some nodes have names, and are not looked into.
+    pub(super) fn between(
+        graph: &'g Graph,
+        notation: &Notation,
+        exprs: &[Expr<'g>],
+        cuts: &Cuts,
+        work: usize,
+    ) -> Result<Self> {
+        let Used { mut symbols, arguments, named } = used(graph, exprs, cuts);
+        symbols.extend(named.iter().map(|&id| cuts[id]));
+        symbols.sort_unstable();
+        symbols.dedup();
         let ring = Ring::new(notation, &symbols, work)?;
         let mut expansion = Self { graph, ring, known: NodeMap::new(graph), units: vec![] };
+        for id in named {
+            let place = expansion.ring.variable(Variable::Symbol(cuts[id]))?;
+            expansion.known.insert(id, Ring::polynomial(place));
+        }
         let mut angles = Vec::with_capacity(arguments.len());
         for &argument in &arguments {
             angles.push(expansion.node(argument)?);
@@ -77,7 +98,7 @@ impl<'g> Expansion<'g> {
         let Self { graph, ring, known, .. } = self;
         Ok(match op {
             Op::Constant(k) => Ring::number(graph.number(k)),
-            Op::Symbol(symbol) => Ring::polynomial(ring.variable(super::ring::Variable::Symbol(symbol))?),
+            Op::Symbol(symbol) => Ring::polynomial(ring.variable(Variable::Symbol(symbol))?),
             Op::Add(a, b) => known[a].plus(Number::ONE, &known[b]),
             Op::Sub(a, b) => known[a].plus(-Number::ONE, &known[b]),
             Op::Mul(a, b) => ring.product(&known[a], &known[b])?,
@@ -186,9 +207,17 @@ fn whole(value: Number) -> Option<i64> {
     }
 }
 
-/// The symbols that expressions use, in order, and the arguments of their sines and cosines.
-fn used(graph: &Graph, exprs: &[Expr<'_>]) -> (Vec<SymbolId>, Vec<NodeId>) {
-    let (mut symbols, mut arguments) = (vec![], vec![]);
+/// What expressions use.
+struct Used {
+    symbols: Vec<SymbolId>,
+    /// The arguments of their sines and cosines.
+    arguments: Vec<NodeId>,
+    /// The nodes with names.
+    named: Vec<NodeId>,
+}
+
+fn used(graph: &Graph, exprs: &[Expr<'_>], cuts: &Cuts) -> Used {
+    let mut used = Used { symbols: vec![], arguments: vec![], named: vec![] };
     let mut seen = NodeMap::new(graph);
     let mut stack: Vec<NodeId> = Vec::new();
     for expr in exprs {
@@ -201,16 +230,20 @@ fn used(graph: &Graph, exprs: &[Expr<'_>]) -> (Vec<SymbolId>, Vec<NodeId>) {
             continue;
         }
         seen.insert(id, ());
+        if cuts.contains(id) {
+            used.named.push(id);
+            continue;
+        }
         let op = graph.op(id);
         match op {
-            Op::Symbol(symbol) => symbols.push(symbol),
-            Op::Sin(argument) | Op::Cos(argument) => arguments.push(argument),
+            Op::Symbol(symbol) => used.symbols.push(symbol),
+            Op::Sin(argument) | Op::Cos(argument) => used.arguments.push(argument),
             _ => {}
         }
         stack.extend(op.operands());
     }
-    symbols.sort_unstable();
-    arguments.sort_unstable();
-    arguments.dedup();
-    (symbols, arguments)
+    used.arguments.sort_unstable();
+    used.arguments.dedup();
+    used.named.sort_unstable();
+    used
 }

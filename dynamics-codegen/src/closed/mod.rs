@@ -14,6 +14,7 @@ mod latex;
 mod mathml;
 mod matrix;
 mod monomial;
+mod motion;
 mod naive;
 mod name;
 mod notation;
@@ -21,14 +22,15 @@ mod numeral;
 mod parse;
 mod polynomial;
 mod ring;
+mod share;
 #[cfg(test)]
 mod tests;
 mod trig;
 mod unicode;
 
 pub use canonical::Canonical;
-pub use close::{Closed, close};
-pub use evaluate::evaluate;
+pub use close::{Closed, Limits, close};
+pub use evaluate::{evaluate, expression};
 pub use form::Form;
 pub use mathml::math;
 pub use matrix::Matrix;

@@ -94,6 +94,11 @@ impl Notation {
         self.letters.is_empty()
     }
 
+    /// Whether a symbol begins with a letter, with or without an index.
+    pub(super) fn has_letter(&self, letter: &str) -> bool {
+        self.letters.iter().any(|known| known.texts[0].starts_with(letter))
+    }
+
     /// A symbol as it is written.
     pub fn letter(&self, symbol: SymbolId) -> &Letter {
         &self.letters[symbol.0 as usize]

@@ -4,9 +4,11 @@
 //! robot's own parameters stand in them.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::equations::{Argument, Inputs};
+use super::equations::{Argument, Derivation, Inputs, Method};
 use super::plain;
-use crate::closed::{Canonical, Form, Matrix, Name, Notation, Polynomial, Role, Swelling};
+use crate::closed::{
+    Canonical, Closed, Form, Limits, Matrix, Name, Notation, Polynomial, Role, Swelling, close,
+};
 use crate::model::{JointInfo, Model, Parameter};
 use crate::symbolic::{Expr, Graph, Number, SymbolId};
 
@@ -31,20 +33,52 @@ pub struct ClosedForms {
     pub lagrangian: Form,
 }
 
-/// Products of terms that are made for one robot at most: a fraction of a second, unoptimised.
-const WORK: usize = 60_000;
+/// The largest robot whose equations are written at all.
+const LARGEST: usize = 8;
 
-/// Entries with more terms than this are not written out.
-const TERMS: usize = 60;
-
-/// The equations of `model` in closed form: `T` and `V` by the plain recursion, multiplied out, and the rest by
-/// Lagrange's equations.
+/// The equations of `model` in closed form.
+///
+/// Of small robots they are multiplied out: `T` and `V` by the plain recursion, the rest from them by Lagrange's equations,
+/// all in the normal form of [`Canonical`]. Where a term would have more than [`Limits::READABLE`] allows, they are those
+/// that the programs are made of, with names for what they share.
 ///
 /// # Errors
 ///
-/// If the robot is too large.
+/// If the robot has more than eight degrees of freedom, or its equations more names than the limits allow.
 pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
+    match multiplied_out(model, graph) {
+        _ if Inputs::of(model).dof > LARGEST => Err(Swelling),
+        Err(Swelling) => with_names(model, graph),
+        forms => forms,
+    }
+}
+
+fn with_names<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
+    let mut notation = notation(model);
+    let derivation = Derivation::of(model, graph);
+    let n = derivation.inputs.dof;
+    let blocks = |method| derivation.blocks(method).into_iter().flat_map(|block| block.entries);
+    let mut exprs: Vec<Expr<'g>> = Vec::new();
+    let M: Vec<_> = blocks(Method::MassMatrix).collect();
+    exprs.extend((0..n).flat_map(|row| M[row * n + row..(row + 1) * n].iter().copied()));
+    for method in [
+        Method::CoriolisMatrix,
+        Method::GravityForces,
+        Method::KineticEnergy,
+        Method::PotentialEnergy,
+        Method::Lagrangian,
+    ] {
+        exprs.extend(blocks(method));
+    }
+    let Closed { definitions, forms } = close(graph, &mut notation, &exprs, Limits::READABLE)?;
+    Ok(assembled(notation, definitions, forms, n))
+}
+
+fn multiplied_out<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
     let inputs = Inputs::of(model);
+    if inputs.dof > LARGEST {
+        return Err(Swelling);
+    }
     let notation = notation(model);
     let [q, v] = [Argument::Q, Argument::V].map(|argument| inputs.vector(graph, argument));
     let T = plain::kinetic_energy(&model.tree, &q, &v);
@@ -58,23 +92,34 @@ pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedFor
     all.push(lagrange.T.clone());
     all.push(lagrange.V.clone());
     all.push(lagrange.T.plus(-Number::ONE, &lagrange.V));
-    let mut forms = lagrange.canonical.forms(&notation, &all, TERMS)?.into_iter();
+    let forms = lagrange.canonical.forms(&notation, &all, Limits::READABLE.terms)?;
+    Ok(assembled(notation, vec![], forms, n))
+}
+
+/// The forms of M, of which there is the upper half, C, G, T, V and L, in this order.
+fn assembled(
+    notation: Notation,
+    definitions: Vec<(SymbolId, Form)>,
+    forms: Vec<Form>,
+    n: usize,
+) -> ClosedForms {
+    let mut forms = forms.into_iter();
     let mut row = |length: usize| forms.by_ref().take(length).collect::<Vec<_>>();
     let mass_matrix = Matrix::symmetric((0..n).map(|k| row(n - k)).collect());
     let coriolis_matrix = Matrix::of_rows((0..n).map(|_| row(n)).collect());
     let gravity_forces = Matrix::vector(row(n));
     let mut next = || row(1).pop().unwrap_or(Form::ZERO);
     let (kinetic_energy, potential_energy, lagrangian) = (next(), next(), next());
-    Ok(ClosedForms {
+    ClosedForms {
         notation,
-        definitions: vec![],
+        definitions,
         mass_matrix,
         coriolis_matrix,
         gravity_forces,
         kinetic_energy,
         potential_energy,
         lagrangian,
-    })
+    }
 }
 
 /// Lagrange's equations in the normal form, as `lagrange.rs` has them for expressions.
@@ -109,7 +154,7 @@ impl<'g> Lagrange<'g> {
         // The coordinates are among the expressions, so that they are variables in their order.
         let mut exprs = vec![T, V];
         exprs.extend(q.iter().chain(&v));
-        let mut canonical = Canonical::new(graph, notation, &exprs, WORK)?;
+        let mut canonical = Canonical::new(graph, notation, &exprs, Limits::READABLE.work)?;
         let mut all = |exprs: Vec<Expr<'g>>| -> Result<Vec<Polynomial>, Swelling> {
             exprs.into_iter().map(|expr| canonical.polynomial(expr)).collect()
         };

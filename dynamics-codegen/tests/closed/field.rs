@@ -100,6 +100,12 @@ impl Point {
         Self { residues, circle, pi: random.residue() }
     }
 
+    /// Makes a name stand for the value of its definition.
+    pub(crate) fn define(&mut self, symbol: SymbolId, form: &Form) -> Option<()> {
+        self.residues[symbol.0 as usize] = self.form(form)?.residue;
+        Some(())
+    }
+
     fn number(&self, value: Number) -> Option<Value> {
         let Number::Exact(exact) = value else { return None };
         let residue = |value: i128| value.rem_euclid(i128::from(P)) as u64;

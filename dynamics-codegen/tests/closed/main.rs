@@ -3,5 +3,6 @@
 
 mod field;
 mod proof;
+mod properties;
 mod robots;
 mod written;

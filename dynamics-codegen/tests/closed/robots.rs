@@ -1,5 +1,6 @@
-//! The robots of the textbooks.
+//! The robots that are written: those of textbooks and of the lecture, and some whose equations are no textbook's.
 
+/// Their names, and their structs as users write them.
 pub(crate) const ROBOTS: &[(&str, &str)] = &[
     (
         "pendulum",
@@ -303,5 +304,45 @@ pub struct CartWithMotor<T> { pub m_cart: T, pub m: T, pub l: T }"#,
 #[joint(lift: revolute([0, 1, 0.1]), boom -> stick, at = [reach, 0, 0.2])]
 #[body(stick, mass = 11, com = [reach / 2, 0.02, 0], inertia = tensor(0.05, 0.01, 0, 0.4, 0.005, 0.41))]
 pub struct OnAVehicle<T> { pub gx: T, pub gy: T, pub gz: T, pub reach: T }"#,
+    ),
+    (
+        "two_link_arm",
+        r#"#[joint(theta1: revolute(z), world -> upper)]
+#[body(upper, mass = m1, com = [r1, 0, 0], inertia = diag(ix1, iy1, iz1))]
+#[joint(theta2: revolute(z), upper -> fore, at = [l1, 0, 0])]
+#[body(fore, mass = m2, com = [r2, 0, 0], inertia = diag(ix2, iy2, iz2))]
+pub struct TwoLinkArm<T> {
+    pub m1: T, pub m2: T, pub l1: T, pub r1: T, pub r2: T, pub ix1: T, pub iy1: T, pub iz1: T, pub ix2: T, pub iy2: T,
+    pub iz2: T,
+}"#,
+    ),
+    (
+        "ball_toss",
+        r#"#[dynamics(gravity = [0, 0, -g])]
+#[joint(r: prismatic(z), world -> hand)]
+#[body(hand)]
+#[joint(spin: ball, hand -> parcel)]
+#[body(parcel, solid = cuboid(m, [l, w, h]))]
+pub struct BallToss<T> { pub m: T, pub l: T, pub w: T, pub h: T, pub g: T }"#,
+    ),
+    (
+        "pendulum_on_cart",
+        r#"#[dynamics(gravity = [0, 0, -g])]
+#[joint(slider: prismatic(x), world -> cart)]
+#[body(cart, solid = point(m0))]
+#[joint(first: revolute(y), cart -> upper)]
+#[body(upper, solid = point(m1), com = [0, 0, l1])]
+#[joint(second: revolute(y), upper -> lower, at = [0, 0, l1])]
+#[body(lower, solid = point(m2), com = [0, 0, l2])]
+pub struct PendulumOnCart<T> { pub m0: T, pub m1: T, pub m2: T, pub l1: T, pub l2: T, pub g: T }"#,
+    ),
+    (
+        "pulley",
+        r#"#[dynamics(gravity = [0, 0, -g])]
+#[joint(theta: revolute(y), world -> wheel, armature = j)]
+#[body(wheel, solid = cylinder(m, r, b, y))]
+#[joint(rope: prismatic(z), world -> load, mimic = theta, ratio = r)]
+#[body(load, solid = point(load))]
+pub struct Pulley<T> { pub m: T, pub load: T, pub r: T, pub b: T, pub j: T, pub g: T }"#,
     ),
 ];
