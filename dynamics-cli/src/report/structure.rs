@@ -53,10 +53,9 @@ fn told(cells: &[Vec<Cell>]) -> String {
     let (all, zero) = (of_half().count(), count(|cell| *cell == Cell::Zero));
     let constant = count(|cell| matches!(cell, Cell::Constant(_)));
     let varying = all - zero - constant;
-    let zero = if zero == 0 { "none".to_owned() } else { zero.to_string() };
     format!(
-        "M(q) is symmetric and positive definite. Of its {all} entries on and above the diagonal always zero: {zero}; \
-         constant: {constant}; dependent on the configuration: {varying}."
+        "M(q) is symmetric and positive definite. Its {all} entries on and above the diagonal: {zero} always zero, \
+         {constant} constant, {varying} dependent on the configuration."
     )
 }
 
