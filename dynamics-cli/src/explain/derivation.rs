@@ -49,7 +49,7 @@ impl Text<'_, '_> {
 
     fn figure(&mut self) {
         self.heading(1, "The robot, where its coordinates are zero");
-        let figure = &self.lecture.figure;
+        let Ok(figure) = &self.lecture.figure else { return self.too_long("The figure") };
         let joints = figure.joints.iter().map(|joint| self.joint(joint)).collect();
         self.blocks.push(Block::List(joints));
         let mut gravity = words("All falls with the acceleration $g⃗|\\vec g$ = ");

@@ -1,8 +1,8 @@
 //! The figure of a robot, in its zero configuration.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::{Figure, Joint};
-use crate::closed::{Closed, Matrix, Notation, close};
+use super::{Figure, Joint, WITHOUT_NAMES};
+use crate::closed::{Closed, Matrix, Notation, Swelling, close};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
 use crate::model::Model;
@@ -16,7 +16,11 @@ pub(super) fn neutral<'g>(model: &Model<'g>) -> Vec<Expr<'g>> {
 }
 
 /// The joints and gravity.
-pub(super) fn figure<'g>(model: &Model<'g>, graph: &'g Graph, notation: &Notation) -> Figure {
+pub(super) fn figure<'g>(
+    model: &Model<'g>,
+    graph: &'g Graph,
+    notation: &Notation,
+) -> Result<Figure, Swelling> {
     let tree = &model.tree;
     let q = Inputs::of(model).vector(graph, Argument::Q);
     // Where the joint itself is at zero: its moving frame less its offset.
@@ -28,7 +32,7 @@ pub(super) fn figure<'g>(model: &Model<'g>, graph: &'g Graph, notation: &Notatio
         exprs.push(link.drive.ratio * q[link.drive.q] + link.drive.offset);
     }
     exprs.extend(tree.gravity.0);
-    let Closed { forms, .. } = close(graph, &mut notation.clone(), &exprs);
+    let Closed { forms, .. } = close(graph, &mut notation.clone(), &exprs, WITHOUT_NAMES)?;
     let vector = |at: usize| Matrix::vector(forms[at..at + 3].to_vec());
     let joint = |(k, info): (usize, &crate::model::LinkInfo)| Joint {
         name: info.joint.clone(),
@@ -46,5 +50,5 @@ pub(super) fn figure<'g>(model: &Model<'g>, graph: &'g Graph, notation: &Notatio
         v: tree.links[k].drive.v,
     };
     let joints = model.links.iter().enumerate().map(joint).collect();
-    Figure { joints, gravity: vector(7 * tree.links.len()) }
+    Ok(Figure { joints, gravity: vector(7 * tree.links.len()) })
 }

@@ -12,7 +12,7 @@ mod linear;
 mod steps;
 
 use super::closed::notation;
-use crate::closed::{Form, Matrix, Notation, Swelling};
+use crate::closed::{Form, Limits, Matrix, Notation, Swelling};
 use crate::model::{Model, Motion};
 use crate::symbolic::Graph;
 use steps::Steps;
@@ -20,13 +20,16 @@ use steps::Steps;
 /// A robot of more degrees of freedom is not derived step by step: it would fill a book.
 pub const MOST_DOF: usize = 12;
 
+/// A step has all that it says in it; figures of long chains are sums of many lengths.
+const WITHOUT_NAMES: Limits = Limits { work: 200_000, terms: 200, names: 0 };
+
 /// All steps. Each part ends where it would be too long to read.
 #[derive(Clone, Debug)]
 pub struct Lecture {
-    /// What the symbols are called: those of [`Inputs`].
+    /// What the symbols are called: those of [`Inputs`](super::equations::Inputs).
     pub notation: Notation,
     /// The robot where its coordinates are zero.
-    pub figure: Figure,
+    pub figure: Result<Figure, Swelling>,
     /// The bodies that move and have mass, parents before children.
     pub bodies: Result<Vec<Body>, Swelling>,
     /// Their equations.
