@@ -5,7 +5,7 @@
 //! three terms or more, for `I sin² + J cos² + K cos²` is easier read than with a bracket.
 
 use super::Form;
-use super::item::{Factor, Item, Writer};
+use super::item::{Angle, Factor, Item, Writer};
 use crate::symbolic::Number;
 
 /// What a pair of brackets costs, a symbol being 4.
@@ -48,20 +48,21 @@ impl Writer<'_> {
         if self.length(&pulled) <= self.length(&whole) { pulled } else { whole }
     }
 
-    /// The sum of items by what they share: by what saves most, or by masses and the like first, whichever is shorter.
+    /// The sum of items by what they share: by masses and the like first, or by what saves most if that is shorter.
     fn by_parts(&self, items: Vec<Item>) -> Form {
         let by_gain = self.sum_of(self.parts(items.clone(), false));
-        if items.len() > ITEMS / 2 || best_shared(&items, true) == best_shared(&items, false) {
+        if items.len() > ITEMS / 2 || best_shared(&items, true, &[]) == best_shared(&items, false, &[]) {
             return by_gain;
         }
         let by_weight = self.sum_of(self.parts(items, true));
-        if self.length(&by_weight) < self.length(&by_gain) { by_weight } else { by_gain }
+        if self.length(&by_weight) <= self.length(&by_gain) { by_weight } else { by_gain }
     }
 
     /// The parts of a sum whose items have nothing in common.
     fn parts(&self, mut items: Vec<Item>, by_weight: bool) -> Vec<Part> {
         let mut parts: Vec<Part> = Vec::new();
-        while let Some(shared) = best_shared(&items, by_weight) {
+        let mut angles: Vec<Angle> = Vec::new();
+        while let Some(shared) = best_shared(&items, by_weight, &angles) {
             let (group, rest): (Vec<_>, Vec<_>) = items.into_iter().partition(|item| has_all(item, &shared));
             items = rest;
             let mut inside: Vec<Item> = group.into_iter().map(|item| without(item, &shared)).collect();
@@ -69,6 +70,9 @@ impl Writer<'_> {
             let (common, inside) = split_common(inside);
             let mut outside = common;
             for (factor, exponent) in shared {
+                if let Factor::Trig(angle, _) = &factor {
+                    angles.push(angle.clone());
+                }
                 outside.multiply(factor, exponent);
             }
             // What the group has in common, beyond what it was chosen by, is outside already.
@@ -271,7 +275,9 @@ fn common_number(items: &[Item]) -> Number {
         items.iter().map(|item| item.coefficient.abs()).max_by(|a, b| a.cmp_value(*b)).unwrap_or(Number::ONE);
     let ratios = || items.iter().map(|item| item.coefficient.abs() / largest);
     let is_simple = |value: Number| fraction(value).is_some_and(|(num, den)| num <= 24 && den <= 24);
-    if !is_simple(largest) && ratios().all(is_simple) && ratios().filter(|ratio| ratio.is_one()).count() > 1 {
+    let is_half = |ratio: Number| ratio.is_one() || ratio == Number::ratio(1, 2);
+    let is_shared = || ratios().filter(|ratio| ratio.is_one()).count() > 1 || ratios().all(is_half);
+    if items.len() > 2 && !is_simple(largest) && ratios().all(is_simple) && is_shared() {
         return largest;
     }
     let fractions: Vec<_> = items.iter().map_while(|item| fraction(item.coefficient.abs())).collect();
@@ -328,8 +334,9 @@ fn without(mut item: Item, shared: &[(Factor, i32)]) -> Item {
     item
 }
 
-/// The factors that several items share and that save most if they are pulled out of these.
-fn best_shared(items: &[Item], by_weight: bool) -> Option<Vec<(Factor, i32)>> {
+/// The factors that several items share and that save most if they are pulled out of these; by weight, masses and the like
+/// come first. Of the `angles`, terms are collected already: what else has them is, too.
+fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<(Factor, i32)>> {
     // Whether it has what is preferred, what it saves, what it is.
     let mut best: Option<((bool, usize), Vec<(Factor, i32)>)> = None;
     for (k, first) in items.iter().enumerate() {
@@ -339,11 +346,17 @@ fn best_shared(items: &[Item], by_weight: bool) -> Option<Vec<(Factor, i32)>> {
             if shared.is_empty() || best.as_ref().is_some_and(|(_, known)| *known == shared) {
                 continue;
             }
-            let weight: usize = shared.iter().map(|(factor, _)| weight(factor)).sum();
-            let count = items.iter().filter(|item| has_all(item, &shared)).count();
-            let Some(gain) = (weight * (count - 1)).checked_sub(BRACKET).filter(|gain| *gain > 0) else {
-                continue;
+            let weight: usize = shared.iter().map(|(factor, _)| weight(factor, angles)).sum();
+            let mut group = items.iter().filter(|item| has_all(item, &shared));
+            let count = group.clone().count();
+            // A sum of masses is read as one.
+            let is_mass = |item: &Item| {
+                let mut rest = item.factors.iter().filter(|factor| !shared.contains(factor));
+                matches!((rest.next(), rest.next()), (Some((Factor::Symbol(rank, _), 1)), None) if *rank <= WEIGHTY)
             };
+            let bracket = if group.all(is_mass) { BRACKET - 1 } else { BRACKET };
+            let gain = (weight * (count - 1)).checked_sub(bracket).filter(|gain| *gain > 0);
+            let Some(gain) = gain else { continue };
             let is_weighty =
                 |(factor, _): &(Factor, i32)| matches!(factor, Factor::Symbol(rank, _) if *rank <= WEIGHTY);
             let worth = (by_weight && shared.iter().any(is_weighty), gain);
@@ -361,9 +374,9 @@ fn best_shared(items: &[Item], by_weight: bool) -> Option<Vec<(Factor, i32)>> {
 
 /// What it saves to write a factor once less. A length alone is left in two terms, and pulled out of three; sines are a
 /// little less than that.
-fn weight(factor: &Factor) -> usize {
+fn weight(factor: &Factor, angles: &[Angle]) -> usize {
     match factor {
-        Factor::Trig(..) => 2,
+        Factor::Trig(angle, _) if !angles.contains(angle) => 2,
         Factor::Symbol(rank, _) if *rank > WEIGHTY => 3,
         _ => 4,
     }

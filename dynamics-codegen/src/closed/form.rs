@@ -36,10 +36,16 @@ impl Form {
     /// 1
     pub const ONE: Self = Self::Number(Number::ONE);
 
-    /// A number. What the compiler knows as a float has six digits on paper, for nobody reads more.
+    /// A number. What the compiler knows as a float has six digits on paper, for nobody reads more; so has a fraction of
+    /// more than twelve digits.
     pub fn number(value: Number) -> Self {
+        const TWELVE_DIGITS: i128 = 1_000_000_000_000;
         let magnitude = match value.abs() {
-            exact @ Number::Exact(_) => exact,
+            Number::Exact(exact)
+                if exact.pi_power() != 0 || exact.numerator().max(exact.denominator()) < TWELVE_DIGITS =>
+            {
+                Number::Exact(exact)
+            }
             float => Number::parse_decimal(&format!("{:.5e}", float.to_f64())).unwrap_or(float),
         };
         let form = Self::Number(magnitude);

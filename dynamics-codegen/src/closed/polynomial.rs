@@ -113,8 +113,12 @@ impl Polynomial {
     }
 }
 
-/// The denominators that are looked for. Of a float with a hundred bits, a fraction as close as that is no chance.
-const DENOMINATORS: i64 = 100_000;
+/// The denominators that are looked for, if they are not those of decimals. Of a float with a hundred bits, a fraction as
+/// close as that is no chance.
+const DENOMINATORS: i64 = 400;
+
+/// The denominators of decimals that are looked for.
+const DECIMALS: i64 = 1_000_000;
 
 /// The fraction with a small denominator that a float is, but for its last bits; else the float.
 fn fraction_near(value: Number) -> Number {
@@ -132,13 +136,17 @@ fn fraction_near(value: Number) -> Number {
         }
         let whole = whole as i64;
         let next = (whole * last.0 + before.0, whole * last.1 + before.1);
-        if next.1 > DENOMINATORS {
+        if next.1 > DECIMALS {
             return value;
         }
         (before, last) = (last, next);
         let fraction = Number::ratio(last.0, last.1);
         let distance = (value.abs() - fraction).abs();
+        let is_decimal = DECIMALS % last.1 == 0;
         if distance.to_f64() <= 1e-28 * value.abs().to_f64() {
+            if last.1 > DENOMINATORS && !is_decimal {
+                return value;
+            }
             return if value.is_negative() { -fraction } else { fraction };
         }
         rest = rest - Number::integer(whole);

@@ -17,6 +17,7 @@ pub mod lecture;
 pub mod method;
 pub mod motion;
 pub mod normal;
+pub mod notation;
 pub mod passive;
 pub mod plain;
 pub mod regressor;
