@@ -334,7 +334,7 @@ fn a_long_chain_ends_with_its_figure() {
         let text = (0..count).map(joint).collect::<String>() + "struct Chain;";
         with_model(&text, |model, graph| {
             let lecture = lecture(model, graph);
-            assert_eq!(lecture.figure.expect("its numbers are short").joints.len(), count);
+            assert_eq!(lecture.figure.unwrap().joints.len(), count);
             assert_eq!(lecture.bodies.is_ok(), is_there);
         });
     }

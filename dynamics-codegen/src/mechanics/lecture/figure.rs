@@ -1,8 +1,8 @@
 //! The figure of a robot, in its zero configuration.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::{Figure, Joint, written};
-use crate::closed::{Matrix, Notation, Swelling};
+use super::{Figure, Joint, WITHOUT_NAMES};
+use crate::closed::{Closed, Matrix, Notation, Swelling, close};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
 use crate::model::Model;
@@ -32,7 +32,7 @@ pub(super) fn figure<'g>(
         exprs.push(link.drive.ratio * q[link.drive.q] + link.drive.offset);
     }
     exprs.extend(tree.gravity.0);
-    let forms = written(graph, notation, &exprs)?;
+    let Closed { forms, .. } = close(graph, &mut notation.clone(), &exprs, WITHOUT_NAMES)?;
     let vector = |at: usize| Matrix::vector(forms[at..at + 3].to_vec());
     let joint = |(k, info): (usize, &crate::model::LinkInfo)| Joint {
         name: info.joint.clone(),

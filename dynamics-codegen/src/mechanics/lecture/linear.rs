@@ -1,9 +1,9 @@
 //! The linear model about the neutral state, at rest.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::{Linear, written};
 use super::figure::neutral;
-use crate::closed::{Form, Matrix, Notation, Swelling};
+use super::{Linear, WITHOUT_NAMES};
+use crate::closed::{Form, Matrix, Notation, Swelling, close};
 use crate::mechanics::equations::Inputs;
 use crate::mechanics::plain::{self, Dual};
 use crate::model::{Model, Tree};
@@ -48,7 +48,7 @@ pub(super) fn linear<'g>(
     });
     let lower: Vec<Expr<'g>> = lower.collect();
     let all = [M.concat(), K, D, hold, lower].concat();
-    let mut forms = written(graph, notation, &all)?.into_iter();
+    let mut forms = close(graph, &mut notation.clone(), &all, WITHOUT_NAMES)?.forms.into_iter();
     let mut square = || Matrix::of_rows((0..n).map(|_| forms.by_ref().take(n).collect()).collect());
     let (mass_matrix, stiffness, damping) = (square(), square(), square());
     let hold = Matrix::vector(forms.by_ref().take(n).collect());

@@ -12,18 +12,21 @@ mod linear;
 mod steps;
 
 use super::closed::notation;
-use crate::closed::{Closed, Form, Limits, Matrix, Notation, Swelling, close};
+use crate::closed::{Form, Limits, Matrix, Notation, Swelling};
 use crate::model::{Model, Motion};
-use crate::symbolic::{Expr, Graph};
+use crate::symbolic::Graph;
 use steps::Steps;
 
 /// A robot of more degrees of freedom is not derived step by step: it would fill a book.
 pub const MOST_DOF: usize = 12;
 
+/// A step has all that it says in it; figures of long chains are sums of many lengths.
+const WITHOUT_NAMES: Limits = Limits { work: 200_000, terms: 200, names: 0 };
+
 /// All steps. Each part ends where it would be too long to read.
 #[derive(Clone, Debug)]
 pub struct Lecture {
-    /// What the symbols are called: those of [`Inputs`].
+    /// What the symbols are called: those of [`Inputs`](super::equations::Inputs).
     pub notation: Notation,
     /// The robot where its coordinates are zero.
     pub figure: Result<Figure, Swelling>,
@@ -195,10 +198,4 @@ pub fn lecture<'g>(model: &Model<'g>, graph: &'g Graph) -> Lecture {
         Err(Swelling) => Err(Swelling),
     };
     Lecture { notation, figure, bodies, equations, linear }
-}
-
-/// Expressions that are written without names for their parts.
-fn written<'g>(graph: &'g Graph, notation: &Notation, exprs: &[Expr<'g>]) -> Result<Vec<Form>, Swelling> {
-    let Closed { definitions, forms } = close(graph, &mut notation.clone(), exprs, Limits::READABLE)?;
-    if definitions.is_empty() { Ok(forms) } else { Err(Swelling) }
 }

@@ -1,5 +1,6 @@
 //! The steps of a derivation, made from each other in the normal form.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
+#![allow(clippy::needless_range_loop, reason = "indices are those of the formulas")]
 
 use super::{Body, Christoffel, Equations, Row, Terms};
 use crate::closed::{Canonical, Form, Matrix, Notation, Polynomial, Swelling};
