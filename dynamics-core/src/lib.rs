@@ -36,7 +36,7 @@
 //! | `derive` (default) | the derive macro `Dynamics` |
 //! | `std` (default) | square root and fused multiply-add of the platform; the latter needs a target that has it, for x86 `-C target-cpu=native` or the like. [Recorded motions](simulate::Trajectory), which have a heap |
 //! | `libm` | square roots by the crate `libm` where there is no `std`; without either, by code of our own |
-//! | `simd` | default; [lanes]: `f64x2` to `f64x8`, `f32x4` to `f32x16` as scalars, and a robot's sines in them; [batches](batch) of states from slices |
+//! | `simd` (default) | [lanes]: `f64x2` to `f64x8`, `f32x4` to `f32x16` as scalars, and a robot's sines in them; [batches](batch) of states from slices |
 //! | `rayon` | batches over all cores; implies `simd` and `std`, has a heap, and panics if threads cannot be started |
 //! | `serde` | `Serialize` for states, poses, equations, derivatives, linear models, energies, costs, limits and errors, and `Deserialize` for all but errors; matrices as nalgebra writes them, by columns |
 //! | `defmt` | `Format` for the same types, for the log of a microcontroller |
