@@ -65,10 +65,12 @@ pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Resu
     Ok(start)
 }
 
-/// The limits of a coordinate of one number; infinite where there are none.
+/// The limits of a coordinate of one number; infinite where there are none. Files in which nobody knew them have 0 and 0:
+/// an interval that has no inside is no limit.
 pub(super) fn limits(robot: &Robot<'_>, q: usize, v: usize) -> [f64; 2] {
     let joint = robot.model.joints.iter().find(|joint| joint.q.contains(&q));
     let limits = joint.and_then(|joint| joint.limits.get(v - joint.v.start));
+    let limits = limits.filter(|limits| limits.lower < limits.upper);
     limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| [limits.lower, limits.upper])
 }
 
