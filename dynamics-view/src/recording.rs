@@ -72,7 +72,7 @@ where
             .enumerate()
             .map(|(k, body)| body.motions_against(parent(k).map_or(&world, |parent| &placed[parent])))
             .collect();
-        let joints = Joints::of(&motions, R::JOINT_NAMES);
+        let joints = Joints::of(&motions, R::JOINT_NAMES, R::MOTIONS);
         let bodies = R::BODY_NAMES.iter().zip(motions).enumerate().map(|(k, (name, motions))| Body {
             name: (*name).to_owned(),
             parent: parent(k),
@@ -264,13 +264,30 @@ struct Joints<'n> {
 }
 
 impl<'n> Joints<'n> {
-    /// Joints that follow another one have its speeds, and are one with it here.
-    fn of(motions: &[Vec<(usize, Motion)>], names: &'n [&'n str]) -> Self {
+    /// Joints that follow another one have its speeds, and are one with it here. A speed by which no body moves, as
+    /// `by_speed` has some, is that of a coordinate without one.
+    fn of(
+        motions: &[Vec<(usize, Motion)>],
+        names: &'n [&'n str],
+        by_speed: &[dynamics_core::Motion],
+    ) -> Self {
         let mut own: Vec<(Vec<usize>, Vec<Motion>)> = vec![];
         for joint in motions.iter().filter(|joint| !joint.is_empty()) {
             let (speeds, motions): (Vec<usize>, Vec<Motion>) = joint.iter().copied().unzip();
             if own.iter().all(|(known, _)| *known != speeds) {
                 own.push((speeds, motions));
+            }
+        }
+        for (speed, motion) in by_speed.iter().enumerate() {
+            if own.iter().all(|(known, _)| !known.contains(&speed)) {
+                let along = [0.0, 0.0, 1.0];
+                own.push((
+                    vec![speed],
+                    vec![match motion {
+                        dynamics_core::Motion::Rotation => Motion::Turn { through: [0.0; 3], along },
+                        dynamics_core::Motion::Translation => Motion::Slide { along },
+                    }],
+                ));
             }
         }
         own.sort_by(|a, b| a.0.cmp(&b.0));

@@ -132,9 +132,9 @@ fn the_energy_of_a_driven_robot_is_accounted_for() -> Result<(), Box<dyn std::er
 
 /// A body that slides, and beside it a coordinate of which there is no body.
 #[derive(Dynamics)]
+#[coordinate(sway: length, armature = 1kg)]
 #[joint(slide: prismatic(x), world -> cart)]
 #[body(cart, solid = point(2kg))]
-#[coordinate(sway: length, armature = 1kg)]
 #[potential(20N_per_m / 2 * (slide - sway)^2)]
 struct Swaying;
 
@@ -146,5 +146,8 @@ fn coordinates_without_bodies_are_charted_and_not_drawn() {
     assert_eq!(seen.watch(simulation.steps(100)).filter(Result::is_ok).count(), 100);
     let bodies: Vec<_> = seen.film().scene().bodies.iter().map(|body| body.name.clone()).collect();
     assert_eq!(bodies, ["cart"]);
-    assert!(seen.figure("Sway").svg().expect("there is something to draw").contains("sway"));
+    let single = &seen.coordinates().single;
+    let named: Vec<_> = single.iter().map(|c| (c.name.as_str(), c.q, c.v, c.measure)).collect();
+    assert_eq!(named, [("sway", 0, 0, Measure::Distance), ("slide", 1, 1, Measure::Distance)]);
+    assert_eq!(seen.film().scene().bodies[0].joint.name, "slide");
 }
