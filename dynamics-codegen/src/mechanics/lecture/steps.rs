@@ -64,7 +64,7 @@ fn moving<'g>(model: &Model<'g>, graph: &'g Graph, q: &[Expr<'g>]) -> Vec<Moving
 }
 
 /// Whether an expression is a sum.
-fn is_sum<'g>(graph: &'g Graph, expr: Expr<'g>) -> bool {
+fn is_sum(graph: &Graph, expr: Expr<'_>) -> bool {
     matches!(expr, Expr::Node { id, .. } if matches!(graph.op(id), Op::Add(..) | Op::Sub(..)))
 }
 
