@@ -28,6 +28,8 @@ use symbolic::Graph;
 
 /// Robots of more links have no equations in closed form in their code.
 const LINKS_IN_CLOSED_FORM: usize = 4;
+/// Nor have those whose equations need more names for their parts: nobody reads them.
+const NAMES_IN_CLOSED_FORM: usize = 24;
 
 /// The deepest nesting of groups that is read at all: what reads tokens recurses.
 const NESTING_LIMIT: usize = 64;
@@ -218,6 +220,7 @@ pub fn generate_rust(spec: &RobotSpec) -> Result<String, Diagnostics> {
     // Of large robots they are too long, and finding that out takes its time.
     let is_short = model.tree.links.len() <= LINKS_IN_CLOSED_FORM;
     let closed = is_short.then(|| mechanics::closed::closed_forms(&model, &graph).ok()).flatten();
+    let closed = closed.filter(|closed| closed.definitions.len() <= NAMES_IN_CLOSED_FORM);
     let (item, model, compiled) = (&item, &model, &compiled);
     Ok(emit::rust::implementation(&emit::rust::Input { item, model, compiled, closed: closed.as_ref() }))
 }

@@ -134,7 +134,7 @@ fn code_of_the_pendulum() {
 
 #[test]
 fn code_of_the_cart_pole() {
-    let methods = ["prepare", "mass_matrix", "gravity_forces"];
+    let methods = ["prepare", "mass_matrix"];
     insta::assert_snapshot!(excerpt(&cart_pole::entry(), &methods));
 }
 

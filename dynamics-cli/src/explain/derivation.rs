@@ -169,6 +169,13 @@ impl Text<'_, '_> {
             "Each body has a frame at its centre of mass, in the axes that it was described in. $R_i|R_i$ takes its axes to \
              those of the world, and $p_i|p_i$ is where its centre of mass is. What is welded to a body is a part of it.",
         );
+        if bodies.iter().any(|body| body.first.is_some()) {
+            self.text(
+                "A body of no mass has no such centre, and that of several bodies welded together is a quotient by the sum of \
+                 their masses, which makes long equations: these have their frames where they were described, at $p_i|p_i$, \
+                 and a first moment $h_i|h_i$, the mass times the way from there to its centre.",
+            );
+        }
         for (i, body) in bodies.iter().enumerate() {
             let mut named = words(&format!("Body {}, `{}`, of the mass ", i + 1, body.name));
             named.push(Piece::Form(body.mass.clone()));
@@ -203,7 +210,18 @@ impl Text<'_, '_> {
              $T_i = ½ V_iᵇᵀ·ℳ_i·V_iᵇ|T_i = \\tfrac12 {V_i^b}^T \\mathcal M_i V_i^b$, and its potential energy is \
              $V_i = −m_i g⃗·p_i|V_i = -m_i\\, \\vec g \\cdot p_i$, zero at the world's origin.",
         );
+        if bodies.iter().any(|body| body.first.is_some()) {
+            self.text(
+                "About another point than the centre of mass the generalised inertia has the first moment as well: with \
+                 $Vᵇ = (v, ω)|V^b = (v, \\omega)$ it is $T = ½ m v·v + v·(ω × h) + ½ ω·𝓘·ω|T = \\tfrac12 m\\, v \\cdot v + \
+                 v \\cdot (\\omega \\times h) + \\tfrac12\\, \\omega \\cdot \\mathcal I \\omega$, and \
+                 $V = −g⃗·(m p + R·h)|V = -\\vec g \\cdot (m p + R h)$.",
+            );
+        }
         for (i, body) in bodies.iter().enumerate() {
+            if let Some(first) = &body.first {
+                self.equation([of(i, "h", "h"), Side::Matrix(first.clone())]);
+            }
             self.equation([of(i, "𝓘", "\\mathcal I"), Side::Matrix(body.inertia.clone())]);
             self.equation([of(i, "T", "T"), Side::Form(body.kinetic_energy.clone())]);
             self.equation([of(i, "V", "V"), Side::Form(body.potential_energy.clone())]);

@@ -1,7 +1,7 @@
 //! The equations of motion step by step, as a lecture walks from the bodies to `Υ = M·q̈ + C·q̇ + G`.
 //!
-//! Every body has its frame at its centre of mass, in the axes that it was described in; what is written of it is in
-//! these. The steps are made from each other: `T` from the twists, `M` from the Jacobians, Christoffel's symbols from
+//! Every body has its frame at its centre of mass, or where that is a quotient by a sum of masses, where it was described,
+//! and in the axes that it was described in; what is written of it is in these. The steps are made from each other: `T` from the twists, `M` from the Jacobians, Christoffel's symbols from
 //! `M`, and so on. [`closed_forms`](super::closed::closed_forms) comes to the same by another road.
 //!
 //! R. Murray, Z. Li, S. Sastry, *A Mathematical Introduction to Robotic Manipulation*, CRC 1994, ch. 4.
@@ -79,19 +79,22 @@ pub struct Body {
     pub name: String,
     /// Mass, kg.
     pub mass: Form,
-    /// `𝓘`, 3×3, about the centre of mass.
+    /// `𝓘`, 3×3, about the origin of its frame.
     pub inertia: Matrix,
     /// `R`, 3×3: from its axes to the world's.
     pub rotation: Matrix,
-    /// `p`, 3×1: its centre of mass in the world.
+    /// `p`, 3×1: the origin of its frame in the world.
     pub center: Matrix,
+    /// `h = m·c` in its frame, where that is not at the centre of mass: of a body without mass, and of several welded
+    /// together, whose centre of mass is a quotient by a sum of masses.
+    pub first: Option<Matrix>,
     /// `Jᵇ`, 6×n, linear rows first.
     pub jacobian: Matrix,
     /// `Vᵇ = Jᵇ·v`, 6×1.
     pub twist: Matrix,
     /// `T = ½ Vᵇᵀ·ℳ·Vᵇ`
     pub kinetic_energy: Form,
-    /// `V = −m·gᵀ·p`
+    /// `V = −m·gᵀ·p`, and `−gᵀ·R·h`
     pub potential_energy: Form,
     /// `Jᵇᵀ·ℳ·Jᵇ`, n×n.
     pub share: Matrix,

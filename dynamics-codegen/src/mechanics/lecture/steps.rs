@@ -7,8 +7,8 @@ use crate::closed::{Canonical, Form, Matrix, Notation, Polynomial, Swelling};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
 use crate::model::{Frame, Link, LinkInfo, Model};
-use crate::spatial::{Pose, PseudoInertia};
-use crate::symbolic::{Expr, Graph, Number, SymbolId};
+use crate::spatial::{Pose, PseudoInertia, Vector3};
+use crate::symbolic::{Expr, Graph, Number, Op, SymbolId};
 
 /// Products of terms that are made for one robot at most.
 const WORK: usize = 200_000;
@@ -19,15 +19,18 @@ const TERMS: usize = 60;
 struct Moving<'g> {
     name: String,
     mass: Expr<'g>,
-    /// At the centre of mass, in the world.
+    /// Of its frame, in the world.
     pose: Pose<Expr<'g>>,
+    /// `m·c` in its frame, where that is not at the centre of mass.
+    first: Option<Vector3<Expr<'g>>>,
+    /// About the frame's origin.
     inertia: [[Expr<'g>; 3]; 3],
     jacobian: Vec<Vec<Expr<'g>>>,
     potential: Expr<'g>,
 }
 
 /// The bodies of a tree at a configuration.
-fn moving<'g>(model: &Model<'g>, q: &[Expr<'g>]) -> Vec<Moving<'g>> {
+fn moving<'g>(model: &Model<'g>, graph: &'g Graph, q: &[Expr<'g>]) -> Vec<Moving<'g>> {
     let tree = &model.tree;
     let with_mass = tree.links.iter().zip(&model.links).enumerate().filter(|(_, (link, _))| {
         let PseudoInertia { mass, second, .. } = link.inertia;
@@ -37,19 +40,32 @@ fn moving<'g>(model: &Model<'g>, q: &[Expr<'g>]) -> Vec<Moving<'g>> {
         let own = info.body.map(|body| &tree.frames[body]);
         let frame = own.map_or_else(Pose::identity, |frame| frame.pose);
         let PseudoInertia { mass, first, .. } = link.inertia;
-        let center = match mass.is_zero() {
-            true => frame.translation,
-            false => first.map(|moment| moment / mass),
-        };
-        let at_center = Pose { translation: center, ..frame };
-        let frame = Frame { name: String::new(), link: Some(k), pose: at_center };
+        // Of several bodies welded together the centre of mass is a quotient by a sum, which nobody reads.
+        let is_own = mass.is_zero() || is_sum(graph, mass);
+        let origin = if is_own { frame.translation } else { first.map(|moment| moment / mass) };
+        let at_origin = Pose { translation: origin, ..frame };
+        let frame = Frame { name: String::new(), link: Some(k), pose: at_origin };
         let pose = plain::pose(tree, &frame, q);
-        let inertia = link.inertia.transformed(at_center.inverse()).rotational().full().0;
-        let potential = -(tree.gravity.dot(pose.translation) * mass);
-        let name = own.map_or_else(|| info.joint.clone(), |own| own.name.clone());
-        Moving { name, mass, pose, inertia, jacobian: plain::body_jacobian(tree, &frame, q), potential }
+        let seen = link.inertia.transformed(at_origin.inverse());
+        let first = is_own.then_some(seen.first);
+        let moment = first.map_or_else(Vector3::zero, |first| pose.rotation * first);
+        let potential = -(tree.gravity.dot(pose.translation) * mass + tree.gravity.dot(moment));
+        Moving {
+            name: own.map_or_else(|| info.joint.clone(), |own| own.name.clone()),
+            mass,
+            pose,
+            first,
+            inertia: seen.rotational().full().0,
+            jacobian: plain::body_jacobian(tree, &frame, q),
+            potential,
+        }
     };
     with_mass.map(body).collect()
+}
+
+/// Whether an expression is a sum.
+fn is_sum(graph: &Graph, expr: Expr<'_>) -> bool {
+    matches!(expr, Expr::Node { id, .. } if matches!(graph.op(id), Op::Add(..) | Op::Sub(..)))
 }
 
 /// The steps on their way, in the normal form.
@@ -82,7 +98,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         let inputs = Inputs::of(model);
         let [q, v, a] =
             [Argument::Q, Argument::V, Argument::A].map(|argument| inputs.vector(graph, argument));
-        let bodies = moving(model, &q);
+        let bodies = moving(model, graph, &q);
         let passive = plain::passive::forces(&model.tree, &q, &v);
         let at_rest = -model.tree.gravity.dot(model.tree.base.first);
         let terms = [
@@ -95,6 +111,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             exprs.extend([body.mass, body.potential]);
             exprs.extend(body.pose.translation.0.into_iter().chain(body.pose.rotation.0.concat()));
             exprs.extend(body.inertia.concat().into_iter().chain(body.jacobian.concat()));
+            exprs.extend(body.first.iter().flat_map(|first| first.0));
         }
         let by_brackets = (!model.tree.is_one_dof())
             .then(|| (plain::coriolis_matrix(&model.tree, &q, &v), plain::gravity_forces(&model.tree, &q)));
@@ -134,6 +151,10 @@ impl<'m, 'g> Steps<'m, 'g> {
         let rotation = self.all(&body.pose.rotation.0.concat())?;
         let center = self.all(&body.pose.translation.0)?;
         let inertia = self.all(&body.inertia.concat())?;
+        let first = match &body.first {
+            Some(first) => self.all(&first.0)?,
+            None => vec![Polynomial::zero(); 3],
+        };
         let jacobian: Vec<Vec<Polynomial>> =
             body.jacobian.iter().map(|row| self.all(row)).collect::<Result<_, _>>()?;
         let speeds = self.symbols(&self.v.clone())?;
@@ -143,7 +164,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             (0..n).map(|j| jacobian.iter().map(|row| row[j].clone()).collect()).collect();
         let mut momenta = Vec::with_capacity(n);
         for column in &columns {
-            momenta.push(self.momentum(&mass, &inertia, column)?);
+            momenta.push(self.momentum(&mass, &first, &inertia, column)?);
         }
         let mut share = vec![vec![Polynomial::zero(); n]; n];
         for i in 0..n {
@@ -154,7 +175,7 @@ impl<'m, 'g> Steps<'m, 'g> {
                 self.M[j][i] = self.M[i][j].clone();
             }
         }
-        let momentum = self.momentum(&mass, &inertia, &twist)?;
+        let momentum = self.momentum(&mass, &first, &inertia, &twist)?;
         let kinetic = self.canonical.dot(&twist, &momentum)?.scaled(Number::ratio(1, 2));
         let potential = self.canonical.polynomial(body.potential)?;
         self.T = self.T.plus(Number::ONE, &kinetic);
@@ -169,6 +190,10 @@ impl<'m, 'g> Steps<'m, 'g> {
             inertia: square(forms(&inertia)?, 3),
             rotation: square(forms(&rotation)?, 3),
             center: Matrix::vector(forms(&center)?),
+            first: match body.first {
+                Some(_) => Some(Matrix::vector(forms(&first)?)),
+                None => None,
+            },
             jacobian: square(forms(&jacobian.concat())?, n),
             twist: Matrix::vector(forms(&twist)?),
             kinetic_energy,
@@ -177,21 +202,34 @@ impl<'m, 'g> Steps<'m, 'g> {
         })
     }
 
-    /// `ℳ·V` of a twist: the mass times its linear half, the tensor times its angular one.
+    /// `ℳ·V` of a twist (v, ω): `(m v + ω × h, h × v + 𝓘 ω)`, where h is zero about the centre of mass.
     fn momentum(
         &mut self,
         mass: &Polynomial,
+        first: &[Polynomial],
         inertia: &[Polynomial],
         twist: &[Polynomial],
     ) -> Result<Vec<Polynomial>, Swelling> {
+        let (v, w) = twist.split_at(3);
+        let (turned, moved) = (self.cross(w, first)?, self.cross(first, v)?);
         let mut momentum = Vec::with_capacity(6);
-        for linear in &twist[..3] {
-            momentum.push(self.canonical.product(mass, linear)?);
+        for (linear, turned) in v.iter().zip(&turned) {
+            momentum.push(self.canonical.product(mass, linear)?.plus(Number::ONE, turned));
         }
-        for row in inertia.chunks(3) {
-            momentum.push(self.canonical.dot(row, &twist[3..])?);
+        for (row, moved) in inertia.chunks(3).zip(&moved) {
+            momentum.push(self.canonical.dot(row, w)?.plus(Number::ONE, moved));
         }
         Ok(momentum)
+    }
+
+    fn cross(&mut self, a: &[Polynomial], b: &[Polynomial]) -> Result<Vec<Polynomial>, Swelling> {
+        let mut cross = Vec::with_capacity(3);
+        for k in 0..3 {
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            let product = self.canonical.product(&a[next], &b[last])?;
+            cross.push(product.plus(-Number::ONE, &self.canonical.product(&a[last], &b[next])?));
+        }
+        Ok(cross)
     }
 
     pub(super) fn equations(&mut self) -> Result<Equations, Swelling> {
