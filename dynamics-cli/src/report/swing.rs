@@ -100,8 +100,9 @@ impl Swing {
                 }
                 Err(failure) => return Err(failure),
             };
-            let is_beyond =
-                |([low, high], part): &&([f64; 2], Coordinate)| !(*low..=*high).contains(&seen.state.q[part.q]);
+            let is_beyond = |([low, high], part): &&([f64; 2], Coordinate)| {
+                !(*low..=*high).contains(&seen.state.q[part.q])
+            };
             for (_, part) in bounded.iter().filter(is_beyond) {
                 match part.measure {
                     Measure::Distance => swing.end = End::Stop { joint: part.name.clone() },

@@ -101,10 +101,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         let bodies = moving(model, graph, &q);
         let passive = plain::passive::forces(&model.tree, &q, &v);
         let at_rest = -model.tree.gravity.dot(model.tree.base.first);
-        let terms = [
-            plain::kinetic_terms(&model.tree, &q, &v),
-            plain::potential_terms(&model.tree, &q),
-        ];
+        let terms = [plain::kinetic_terms(&model.tree, &q, &v), plain::potential_terms(&model.tree, &q)];
         let n = inputs.dof;
         let mut exprs: Vec<Expr<'g>> = [&q[..], &v, &a, &passive, &[at_rest], &terms].concat();
         for body in &bodies {
@@ -292,7 +289,11 @@ impl<'m, 'g> Steps<'m, 'g> {
                 None => None,
                 Some((energies, mass)) => {
                     let [kinetic_energy, potential_energy, _] = three(forms(&energies)?);
-                    Some(Terms { kinetic_energy, potential_energy, mass_matrix: symmetric(&mass, &mut forms)? })
+                    Some(Terms {
+                        kinetic_energy,
+                        potential_energy,
+                        mass_matrix: symmetric(&mass, &mut forms)?,
+                    })
                 }
             },
             potential_at_rest: forms(&[at_rest])?.swap_remove(0),
@@ -338,7 +339,8 @@ impl<'m, 'g> Steps<'m, 'g> {
     /// Adds terms of one's own to T, V and M, and returns what they are, and what they add to M.
     fn terms(&mut self) -> Result<Option<([Polynomial; 2], Vec<Vec<Polynomial>>)>, Swelling> {
         let [kinetic, potential] = self.terms;
-        let [kinetic, potential] = [self.canonical.polynomial(kinetic)?, self.canonical.polynomial(potential)?];
+        let [kinetic, potential] =
+            [self.canonical.polynomial(kinetic)?, self.canonical.polynomial(potential)?];
         if kinetic.is_zero() && potential.is_zero() {
             return Ok(None);
         }

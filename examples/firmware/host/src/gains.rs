@@ -88,8 +88,7 @@ mod tests {
         let law = setup.feedback(robot);
         let start = State::rest(law.state.q + SVector::from(setup.swing.map(f64::from)) * 0.25);
         let simulation = Simulation::new(robot, start, 1e-3).expect("the start is finite");
-        let mut simulation =
-            simulation.with_input(|_, state: &State<f64, N, N>| law.torque(robot, state));
+        let mut simulation = simulation.with_input(|_, state: &State<f64, N, N>| law.torque(robot, state));
         let last = simulation.steps(1000 * SECONDS).last().expect("there are steps");
         let last = last.expect("the robot stays finite");
         let left = (last.state.q - law.state.q).amax().max(last.state.v.amax());
