@@ -123,7 +123,7 @@ impl Writer<'_> {
             let first = part.inside.as_ref().and_then(|(items, _)| items.first());
             order(&part.outside, first)
         };
-        parts.sort_by(|a, b| key(a).cmp(&key(b)));
+        parts.sort_by_key(key);
         lead_with_plus(&mut parts, |part| !part.outside.coefficient.is_negative());
         let forms = parts.into_iter().map(|part| match part.inside {
             Some((items, form)) => self.bracketed(&part.outside, &items, form),
@@ -225,7 +225,7 @@ fn order(outside: &Item, inside: Option<&Item>) -> Order {
 
 /// Items in order, the first without a minus if there is one.
 pub(super) fn sort(items: &mut [Item]) {
-    items.sort_by(|a, b| order(a, None).cmp(&order(b, None)));
+    items.sort_by_key(|item| order(item, None));
     lead_with_plus(items, |item| !item.coefficient.is_negative());
 }
 
@@ -334,11 +334,14 @@ fn without(mut item: Item, shared: &[(Factor, i32)]) -> Item {
     item
 }
 
+/// Powers of factors that several items share.
+type Shared = Vec<(Factor, i32)>;
+
 /// The factors that several items share and that save most if they are pulled out of these; by weight, masses and the like
 /// come first. Of the `angles`, terms are collected already: what else has them is, too.
 fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<(Factor, i32)>> {
     // Whether it has what is preferred, what it saves, what it is.
-    let mut best: Option<((bool, usize), Vec<(Factor, i32)>)> = None;
+    let mut best: Option<((bool, usize), Shared)> = None;
     for (k, first) in items.iter().enumerate() {
         for second in &items[k + 1..] {
             let shared: Vec<_> =

@@ -9,6 +9,31 @@ use super::ring::Variable;
 use super::trig;
 use crate::symbolic::Number;
 
+/// What stands before the brackets, a bracket, speeds that all products of a sum share, and this sum.
+struct Term {
+    outside: Item,
+    inside: Vec<Item>,
+    shared_motion: Item,
+    motion: Vec<Item>,
+}
+
+impl Term {
+    /// The product of two sums.
+    fn of(items: Vec<Item>, motion: Vec<Item>) -> Self {
+        let (mut outside, inside) = split_common(items);
+        let (mut shared_motion, motion) = split_common(motion);
+        outside.coefficient = outside.coefficient * shared_motion.coefficient;
+        shared_motion.coefficient = Number::ONE;
+        Self { outside, inside, shared_motion, motion }
+    }
+
+    /// Whether both have the same before their brackets, but for the sign.
+    fn is_alike(&self, other: &Self) -> bool {
+        let (a, b) = (&self.outside, &other.outside);
+        a.factors == b.factors && a.coefficient.abs() == b.coefficient.abs()
+    }
+}
+
 impl Writer<'_> {
     /// A polynomial as a textbook writes it.
     pub(super) fn form(&self, polynomial: &Polynomial) -> Form {
@@ -44,7 +69,7 @@ impl Writer<'_> {
         let key = |motion: &[(Factor, i32)]| {
             motion.iter().map(|(factor, n)| (factor.clone(), -n)).collect::<Vec<_>>()
         };
-        moving.sort_by(|(a, _), (b, _)| key(a).cmp(&key(b)));
+        moving.sort_by_key(|(motion, _)| key(motion));
         moving.into_iter().map(|(motion, terms)| (motion, Polynomial::of_terms(terms))).collect()
     }
 
@@ -86,92 +111,70 @@ impl Writer<'_> {
         Form::sum(std::iter::once(moving).chain(subtracted))
     }
 
+    /// The sum of polynomials, each times a sum of products of speeds.
     fn sum_of_groups(&self, groups: Vec<(Polynomial, Vec<Item>)>) -> Form {
-        // What stands before the brackets: a number and factors that all terms of a coefficient share.
-        let split = groups.into_iter().map(|(polynomial, motion)| {
-            let (outside, inside) = split_common(self.items(&polynomial));
-            let (common, motion) = split_common(motion);
-            let coefficient = outside.coefficient * common.coefficient;
-            let mut motion_outside = common;
-            motion_outside.coefficient = Number::ONE;
-            (Item { coefficient, ..outside }, inside, motion_outside, motion)
-        });
-        let split: Vec<_> = split.collect();
-        let mut taken = vec![false; split.len()];
-        let mut forms: Vec<(bool, Form)> = Vec::new();
-        for k in 0..split.len() {
+        let terms: Vec<Term> = groups
+            .into_iter()
+            .map(|(polynomial, motion)| Term::of(self.items(&polynomial), motion))
+            .collect();
+        let mut taken = vec![false; terms.len()];
+        let (mut shared, mut single) = (Vec::new(), Vec::new());
+        for (k, term) in terms.iter().enumerate() {
             if taken[k] {
                 continue;
             }
-            let (outside, ..) = &split[k];
-            let is_alike = |other: &Item| {
-                other.factors == outside.factors && other.coefficient.abs() == outside.coefficient.abs()
-            };
             let alike: Vec<usize> =
-                (k..split.len()).filter(|&j| !taken[j] && is_alike(&split[j].0)).collect();
-            let is_worth_it = alike.len() > 2 && !outside.factors.is_empty();
-            if is_worth_it {
-                let negative = outside.coefficient.is_negative();
-                let terms = alike.iter().map(|&j| {
-                    taken[j] = true;
-                    let (other, inside, motion_outside, motion) = &split[j];
-                    let sign =
-                        if other.coefficient.is_negative() == negative { Number::ONE } else { -Number::ONE };
-                    self.moving_term(
-                        &Item { coefficient: sign, factors: vec![] },
-                        inside,
-                        motion_outside,
-                        motion,
-                        true,
-                    )
+                (k..terms.len()).filter(|&j| !taken[j] && term.is_alike(&terms[j])).collect();
+            if alike.len() > 2 && !term.outside.factors.is_empty() {
+                let Item { coefficient, factors } = &term.outside;
+                let inner = alike.iter().map(|&j| {
+                    let form = self.inner_term(&terms[j]);
+                    let is_opposite = terms[j].outside.coefficient.is_negative() != coefficient.is_negative();
+                    if is_opposite { form.negative() } else { form }
                 });
-                let sum = Form::sum(terms);
-                forms.push((
-                    true,
-                    self.product(outside.coefficient, &outside.factors, vec![(usize::MAX, sum)]),
-                ));
+                let sum = Form::sum(inner);
+                shared.push(self.product(*coefficient, factors, vec![(usize::MAX, sum)]));
+                for j in alike {
+                    taken[j] = true;
+                }
             } else {
-                let (outside, inside, motion_outside, motion) = &split[k];
-                taken[k] = true;
-                forms.push((false, self.moving_term(outside, inside, motion_outside, motion, false)));
+                single.push(self.term(term));
             }
         }
-        if forms.iter().any(|(is_shared, _)| *is_shared) {
-            forms.sort_by_key(|(is_shared, _)| !is_shared);
-        }
-        if let Some(first) = forms.iter().position(|(_, form)| !matches!(form, Form::Negative(_))) {
+        let mut forms = shared;
+        forms.append(&mut single);
+        if let Some(first) = forms.iter().position(|form| !matches!(form, Form::Negative(_))) {
             forms[..=first].rotate_right(1);
         }
-        Form::sum(forms.into_iter().map(|(_, form)| form))
+        Form::sum(forms)
     }
 
-    /// `outside · (inside) · motion`; the motion first where that avoids two brackets at once.
-    fn moving_term(
-        &self,
-        outside: &Item,
-        inside: &[Item],
-        motion_outside: &Item,
-        motion: &[Item],
-        motion_first: bool,
-    ) -> Form {
-        let inner = match inside {
-            [only] if only.factors.is_empty() => Form::number(only.coefficient),
-            _ => self.collected(inside.to_vec()),
-        };
-        let motion = match motion {
-            [only] if only.factors.is_empty() => Form::ONE,
-            _ => Form::sum(motion.iter().map(|item| self.item(item))),
-        };
-        let moving = Form::product([self.item(motion_outside), motion]);
-        if motion_first && matches!(inner, Form::Sum(_)) {
-            let before = self.item(outside);
-            return Form::product([before, moving, inner]);
-        }
-        let place = place_of_bracket(&outside.factors, inside);
-        let mut others = vec![(place, inner), (usize::MAX, moving)];
+    /// `outside · (inside) · motion`
+    fn term(&self, term: &Term) -> Form {
+        let place = place_of_bracket(&term.outside.factors, &term.inside);
+        let mut others = vec![(place, self.inside(term)), (usize::MAX, self.speeds(term))];
         others.retain(|(_, form)| !form.is_one());
-        others.sort_by_key(|(place, _)| *place);
-        self.product(outside.coefficient, &outside.factors, others)
+        self.product(term.outside.coefficient, &term.outside.factors, others)
+    }
+
+    /// `motion · (inside)`, for a bracket: with the motion first, two brackets do not open at once.
+    fn inner_term(&self, term: &Term) -> Form {
+        match self.inside(term) {
+            sum @ Form::Sum(_) => Form::product([self.speeds(term), sum]),
+            form => Form::product([form, self.speeds(term)]),
+        }
+    }
+
+    fn inside(&self, term: &Term) -> Form {
+        match &term.inside[..] {
+            [only] if only.factors.is_empty() => Form::number(only.coefficient),
+            inside => self.collected(inside.to_vec()),
+        }
+    }
+
+    fn speeds(&self, term: &Term) -> Form {
+        let sum = Form::sum(term.motion.iter().map(|item| self.item(item)));
+        Form::product([self.item(&term.shared_motion), sum])
     }
 
     /// The items of a polynomial without speeds, its sines written shortest.

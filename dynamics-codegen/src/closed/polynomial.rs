@@ -26,7 +26,7 @@ impl Polynomial {
     /// Sorts terms, and adds up those of one monomial.
     pub(super) fn of_terms(mut terms: Vec<(Monomial, Number)>) -> Self {
         if terms.len() > 1 {
-            terms.sort_unstable_by(|(a, _), (b, _)| a.cmp(b));
+            terms.sort_unstable_by_key(|(monomial, _)| *monomial);
         }
         let mut sum: Vec<(Monomial, Number)> = Vec::with_capacity(terms.len());
         for (monomial, coefficient) in terms {
@@ -48,7 +48,7 @@ impl Polynomial {
     }
 
     /// How many terms there are.
-    pub fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.0.len()
     }
 

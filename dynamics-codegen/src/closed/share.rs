@@ -73,8 +73,8 @@ struct Letters {
 }
 
 /// Gives a node a name.
-fn name<'g>(
-    graph: &'g Graph,
+fn name(
+    graph: &Graph,
     notation: &mut Notation,
     cuts: &mut Cuts,
     definitions: &mut Vec<(SymbolId, Form)>,

@@ -209,9 +209,9 @@ fn shortest_even(even: &[Number]) -> Vec<(Number, i32, i32)> {
     let mut in_sines = vec![Number::ZERO; degree + 1];
     let mut in_both = vec![Number::ZERO; degree + 1];
     for (k, &c) in even.iter().enumerate() {
-        for j in 0..=k {
+        for (j, in_sines) in in_sines.iter_mut().enumerate().take(k + 1) {
             let sign = if j % 2 == 0 { c } else { -c };
-            in_sines[j] = in_sines[j] + sign * binomial(k, j);
+            *in_sines = *in_sines + sign * binomial(k, j);
         }
         for j in 0..=degree - k {
             in_both[k + j] = in_both[k + j] + c * binomial(degree - k, j);

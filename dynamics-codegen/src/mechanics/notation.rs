@@ -40,8 +40,11 @@ pub fn notation(model: &Model<'_>) -> Notation {
 /// Quantities that stand before others, by their exponents of kg, m and s: moments of inertia, masses, gravity.
 const RANKS: [[i64; 3]; 3] = [[1, 2, 0], [1, 0, 0], [0, 1, -2]];
 
+/// Beginnings of names, and the letters that are written for them.
+type Letters = &'static [(&'static str, &'static str)];
+
 /// The letters that quantities begin with, by their exponents of kg, m and s, and what may follow as an index.
-const LETTERS: &[([i64; 3], &[(&str, &str)])] = &[
+const LETTERS: &[([i64; 3], Letters)] = &[
     ([1, 0, 0], &[("m", "m"), ("M", "M")]),
     ([0, 1, 0], &[("l", "l"), ("r", "r"), ("d", "d"), ("h", "h"), ("a", "a"), ("L", "L")]),
     ([1, 2, 0], &[("i", "I"), ("I", "I"), ("j", "J"), ("J", "J")]),
