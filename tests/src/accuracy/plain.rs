@@ -4,7 +4,7 @@
 use dynamics_codegen::mechanics::plain::{
     ForwardDynamicsDerivatives, InverseDynamicsDerivatives, Oracle, inverse_dynamics, total_mass,
 };
-use dynamics_codegen::model::{Model, Passive, Tree};
+use dynamics_codegen::model::{Model, Passive, Terms, Tree};
 use dynamics_codegen::spatial::{Pose, PseudoInertia, Symmetric3, Vector3};
 use dynamics_codegen::symbolic::Real;
 
@@ -97,6 +97,7 @@ fn frames<S: Real>(oracle: &Oracle<'_, S>, [q, v, a, _]: [&[S]; 4]) -> Vec<Outpu
 /// which one parameter is one and the others are zero.
 fn regressor<S: Real>(model: &Model<'_>, tree: &Tree<S>, [q, v, a]: [&[S]; 3]) -> Vec<Vec<S>> {
     let mut empty = tree.clone();
+    empty.terms = Terms::none();
     for link in &mut empty.links {
         let Passive { friction_speed, rest, .. } = link.passive;
         (link.inertia, link.passive) =
@@ -121,11 +122,22 @@ fn regressor<S: Real>(model: &Model<'_>, tree: &Tree<S>, [q, v, a]: [&[S]; 3]) -
             column(&|tree| tree.links[link].passive.stiffness = S::from(1));
         }
     }
+    let Terms { potential, dissipation, kinetic } = &tree.terms;
+    for term in potential {
+        column(&|tree| tree.terms.potential.push(term.clone()));
+    }
+    for term in dissipation {
+        column(&|tree| tree.terms.dissipation.push(term.clone()));
+    }
+    for term in kinetic {
+        column(&|tree| tree.terms.kinetic.push(term.clone()));
+    }
     (0..v.len()).map(|i| columns.iter().map(|column| column[i]).collect()).collect()
 }
 
 /// The regressor's parameters: of each body mass, first moments and rotational inertia about its frame's origin, of
-/// each joint of one degree of freedom armature, damping, friction, and the stiffness of a spring.
+/// each joint of one degree of freedom armature, damping, friction, and the stiffness of a spring; of each term of the
+/// energies one.
 fn parameters<S: Real>(model: &Model<'_>, tree: &Tree<S>) -> Vec<S> {
     let ten = |(link, pose): (usize, Pose<S>)| {
         let inertia = tree.links[link].inertia.transformed(pose.inverse());
@@ -138,7 +150,7 @@ fn parameters<S: Real>(model: &Model<'_>, tree: &Tree<S>) -> Vec<S> {
         let Passive { armature, damping, friction, stiffness, .. } = tree.links[link].passive;
         [armature, damping, friction].into_iter().chain(sprung.then_some(stiffness))
     });
-    of_bodies.chain(of_joints).collect()
+    of_bodies.chain(of_joints).chain(tree.terms.all().map(|_| S::from(1))).collect()
 }
 
 /// The moments of a body of which parameter `k` is one and the others are zero.
