@@ -287,7 +287,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             },
             terms: match terms {
                 None => None,
-                Some((energies, mass)) => {
+                Some(Added { energies, mass }) => {
                     let [kinetic_energy, potential_energy, _] = three(forms(&energies)?);
                     Some(Terms {
                         kinetic_energy,
@@ -337,7 +337,7 @@ impl<'m, 'g> Steps<'m, 'g> {
     }
 
     /// Adds terms of one's own to T, V and M, and returns what they are, and what they add to M.
-    fn terms(&mut self) -> Result<Option<([Polynomial; 2], Vec<Vec<Polynomial>>)>, Swelling> {
+    fn terms(&mut self) -> Result<Option<Added>, Swelling> {
         let [kinetic, potential] = self.terms;
         let [kinetic, potential] =
             [self.canonical.polynomial(kinetic)?, self.canonical.polynomial(potential)?];
@@ -357,7 +357,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             }
             added.push(row);
         }
-        Ok(Some(([kinetic, potential], added)))
+        Ok(Some(Added { energies: [kinetic, potential], mass: added }))
     }
 
     fn christoffel(&mut self) -> Result<Vec<Symbol>, Swelling> {
@@ -438,6 +438,14 @@ impl<'m, 'g> Steps<'m, 'g> {
     fn all(&mut self, exprs: &[Expr<'g>]) -> Result<Vec<Polynomial>, Swelling> {
         exprs.iter().map(|&expr| self.canonical.polynomial(expr)).collect()
     }
+}
+
+/// What terms of one's own add.
+struct Added {
+    /// To T and to V.
+    energies: [Polynomial; 2],
+    /// To M.
+    mass: Vec<Vec<Polynomial>>,
 }
 
 /// A Christoffel symbol in the normal form.
