@@ -6,7 +6,7 @@ use dynamics_codegen::closed::{Form, Matrix, evaluate};
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::closed_forms;
 use dynamics_codegen::mechanics::equations::{Argument, Inputs, Method};
-use dynamics_codegen::mechanics::lecture::{Body, Lecture, lecture};
+use dynamics_codegen::mechanics::lecture::{Body, Lecture, NoLinear, lecture};
 use dynamics_codegen::mechanics::plain::{self, Dual, Oracle};
 use dynamics_codegen::model::{self, Frame, Model, Tree};
 use dynamics_codegen::passes::{self, RunTime};
@@ -322,6 +322,35 @@ fn the_linear_model_has_the_derivatives_of_inverse_dynamics() {
             assert_close(row, &[of(&found.dtau_dq), of(&found.dtau_dv)].concat(), "A");
         }
     });
+}
+
+/// Terms of the energies are in all that is derived, and where they have no derivative there is no linear model.
+#[test]
+fn terms_of_the_energies_are_in_the_sums() {
+    const ON_A_SPRING: &str = "
+        #[joint(theta: revolute(y), world -> arm)] #[body(arm)]
+        #[joint(r: prismatic(-z), arm -> bob)] #[body(bob, solid = point(m))]
+        #[potential(k / 2 * (distance(world, bob) - l)^2)]
+        struct OnASpring<T> { m: T, k: T, l: T }";
+    const COUPLED: &str = "
+        #[joint(a: prismatic(x), world -> one)] #[body(one, solid = point(m))]
+        #[joint(b: prismatic(x), world -> two, at = [0, 0, h])] #[body(two, solid = point(m))]
+        #[potential(k / 2 * (distance(one, two) - l)^2)]
+        #[dissipation(c / 2 * (dot(a) - dot(b))^2)]
+        #[kinetic(j / 2 * (dot(a) + dot(b))^2)]
+        struct Coupled<T> { m: T, h: T, k: T, l: T, c: T, j: T }";
+    for (text, flaw) in [(ON_A_SPRING, Some(NoLinear::Undefined)), (COUPLED, None)] {
+        with_model(text, |model, graph| {
+            let (closed, lecture) = (closed_forms(model, graph).unwrap(), lecture(model, graph));
+            assert_eq!(lecture.linear.err(), flaw);
+            let equations = lecture.equations.unwrap();
+            assert!(!equations.terms.unwrap().potential_energy.is_zero());
+            assert_eq!(equations.mass_matrix, closed.mass_matrix, "{text}");
+            assert_eq!(equations.coriolis_matrix, closed.coriolis_matrix, "{text}");
+            assert_eq!(equations.gravity_forces, closed.gravity_forces, "{text}");
+            assert_eq!(equations.lagrangian, closed.lagrangian, "{text}");
+        });
+    }
 }
 
 /// A large robot has its figure, and no more, at once.

@@ -2,7 +2,7 @@
 
 use dynamics_codegen::closed::{Form, Matrix};
 use dynamics_codegen::mechanics::equations::{Argument, Inputs};
-use dynamics_codegen::mechanics::lecture::{Body, Equations, Joint, Lecture, Linear, MOST_DOF};
+use dynamics_codegen::mechanics::lecture::{Body, Equations, Joint, Lecture, Linear, MOST_DOF, NoLinear};
 use dynamics_codegen::model::{Model, Motion};
 
 use super::document::{Block, Math, Piece, Side, indexed, lowered, math, words};
@@ -144,7 +144,11 @@ impl Text<'_, '_> {
         self.state_space(equations);
         match &lecture.linear {
             Ok(linear) => self.linear(linear),
-            Err(_) => self.too_long("The linear model"),
+            Err(NoLinear::Swelling) => self.too_long("The linear model"),
+            Err(NoLinear::Undefined) => self.text(
+                "There is no linear model where all coordinates are zero: M is singular there, or a term of the energies has \
+                 no derivative.",
+            ),
         }
     }
 

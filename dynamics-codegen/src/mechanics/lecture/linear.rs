@@ -2,8 +2,8 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::figure::neutral;
-use super::{Linear, WITHOUT_NAMES};
-use crate::closed::{Form, Matrix, Notation, Swelling, close};
+use super::{Linear, NoLinear, WITHOUT_NAMES};
+use crate::closed::{Form, Matrix, Notation, close};
 use crate::mechanics::equations::Inputs;
 use crate::mechanics::plain::{self, Dual};
 use crate::model::{Model, Tree};
@@ -14,13 +14,19 @@ pub(super) fn linear<'g>(
     model: &Model<'g>,
     graph: &'g Graph,
     notation: &Notation,
-) -> Result<Linear, Swelling> {
+) -> Result<Linear, NoLinear> {
     let (tree, n) = (&model.tree, Inputs::of(model).dof);
     let q = neutral(model);
     let still = vec![Expr::ZERO; n];
     let unit = |k: usize| (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect::<Vec<_>>();
 
+    if !tree.terms.all().all(|term| plain::is_smooth(term, tree, &q)) {
+        return Err(NoLinear::Undefined);
+    }
     let M = plain::mass_matrix(tree, &q);
+    if (0..n).any(|k| M[k][k].is_zero()) {
+        return Err(NoLinear::Undefined);
+    }
     let moved: Tree<Dual<Expr<'g>>> = tree.map(Dual::constant);
     // What holds against gravity and springs, and how it changes along each speed.
     let held = |direction: &[Expr<'g>]| {

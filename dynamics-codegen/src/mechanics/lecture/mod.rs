@@ -35,7 +35,7 @@ pub struct Lecture {
     /// Their equations.
     pub equations: Result<Equations, Swelling>,
     /// The linear model about the neutral state.
-    pub linear: Result<Linear, Swelling>,
+    pub linear: Result<Linear, NoLinear>,
 }
 
 /// A robot in its zero configuration.
@@ -166,6 +166,21 @@ pub struct Row {
     pub force: Form,
 }
 
+/// Why there is no linear model.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoLinear {
+    /// It, or what it is made from, is too long.
+    Swelling,
+    /// Where all coordinates are zero M is singular, or a term of the energies has no derivative.
+    Undefined,
+}
+
+impl From<Swelling> for NoLinear {
+    fn from(Swelling: Swelling) -> Self {
+        Self::Swelling
+    }
+}
+
 /// `M₀·δa + D₀·δv + K₀·δq = B·δu` about a state at rest.
 #[derive(Clone, Debug)]
 pub struct Linear {
@@ -198,7 +213,7 @@ pub fn lecture<'g>(model: &Model<'g>, graph: &'g Graph) -> Lecture {
     };
     let linear = match equations {
         Ok(_) => linear::linear(model, graph, &notation),
-        Err(Swelling) => Err(Swelling),
+        Err(Swelling) => Err(NoLinear::Swelling),
     };
     Lecture { notation, figure, bodies, equations, linear }
 }

@@ -89,6 +89,19 @@ pub fn flaw(term: &Term<f64>, tree: &Tree<f64>, q: &[f64], v: &[f64]) -> Option<
     }
 }
 
+/// Whether a term has derivatives at a configuration: nothing divides by zero there, and no root is of zero.
+pub fn is_smooth<S: Scalar>(term: &Term<S>, tree: &Tree<S>, q: &[S]) -> bool {
+    let is_nothing = |part: &Term<S>| value(part, tree, q, &vec![S::zero(); tree.dof()]).is_zero();
+    match term {
+        Term::Power(base, exponent) if exponent % 2 == 0 && matches!(**base, Term::Distance(_)) => true,
+        Term::Distance(frames) => !squared_distance(tree, *frames, q).is_zero(),
+        _ if !term.parts().into_iter().all(|part| is_smooth(part, tree, q)) => false,
+        Term::Quotient(parts) => !is_nothing(&parts[1]),
+        Term::Call(Function::Sqrt, inner) => !is_nothing(inner),
+        _ => true,
+    }
+}
+
 fn power<S: Scalar>(base: S, exponent: u32) -> S {
     (0..exponent).fold(S::one(), |power, _| power * base)
 }
