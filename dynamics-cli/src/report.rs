@@ -19,7 +19,7 @@ use dynamics_codegen::mechanics::equations::{Argument, Inputs, Method};
 use dynamics_codegen::symbolic::Graph;
 use dynamics_view::page::Page;
 
-use crate::failure::Failure;
+use crate::failure::{Failure, Problem};
 use crate::input::{Input, InputArgs, shown};
 use crate::output::{failed, writer};
 use crate::picture::{robot_name, undrawn};
@@ -113,6 +113,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
     let at = state::read(&args.state, &args.input.file, &robot)?;
     let start = swing::start(&robot, args.q.as_deref(), args.v.as_deref())?;
+    for (state, option) in [(&at, "--state '{\"q\": [0.1, 0.2]}'"), (&start, "--q 0.1,0.2")] {
+        if robot.evaluate(Method::ForwardDynamics, state).is_err() {
+            let problem =
+                Problem::new(format!("the robot does not move by its equations at q = {:?}", state.q));
+            return Err(problem.help(format!("choose another place, as by `{option}`")).into());
+        }
+    }
     // A file that cannot be written is found out before anybody waits.
     let mut out = writer(args.output.as_deref(), &args.input.file)?;
     let html = {
@@ -135,7 +142,7 @@ fn page(subject: &Subject<'_, '_>, args: &Args, start: State) -> Result<Page, Fa
         .with_stage(stage::of(subject, &swing))
         .section(stage::section())
         .section(parameters::section(subject))
-        .section(equations::section(subject))
+        .section(equations::section(subject)?)
         .section(structure::section(subject))
         .section(costs::section(subject.robot))
         .section(swing.section(subject))

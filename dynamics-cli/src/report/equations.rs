@@ -3,12 +3,16 @@
 use std::collections::BTreeMap;
 
 use dynamics_codegen::closed::{Form, Matrix, Notation};
+use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
-use dynamics_codegen::symbolic::{Number, SymbolId};
+use dynamics_codegen::model;
+use dynamics_codegen::spec::RobotSpec;
+use dynamics_codegen::symbolic::{Graph, Number, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
 
 use super::Subject;
+use crate::failure::Failure;
 
 /// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
 const LARGEST: usize = 12;
@@ -19,22 +23,38 @@ const WIDEST: usize = 100;
 /// Numbers of a file have so many digits in equations: of 1/30 nobody reads eighteen.
 const DIGITS: usize = 6;
 
-pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
+pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
     let section = Section::new("equations", "Equations of motion").text(&told(subject));
     let section = section.table(symbols(subject));
     if subject.robot.dof() > LARGEST {
-        return section.text(&too_large(subject));
+        return Ok(section.text(&too_large(subject)));
     }
-    let Ok(forms) = closed_forms(&subject.robot.model, subject.graph) else {
-        return section.text(&too_large(subject));
-    };
+    let Some(forms) = forms(subject)? else { return Ok(section.text(&too_large(subject))) };
     let equations = written(&rounded(forms));
     if equations.iter().map(|equation| equation.mathml.len()).sum::<usize>() > LONGEST {
-        return section.text(&too_large(subject));
+        return Ok(section.text(&too_large(subject)));
     }
-    let remark =
-        format!("Numbers are rounded to {DIGITS} digits; the code that is generated has all of them.");
-    equations.into_iter().fold(section, Section::equation).remark(&remark)
+    let fields = match subject.robot.spec.known.is_empty() {
+        true => "",
+        false => " Fields are letters, whatever their values are.",
+    };
+    let remark = format!(
+        "Numbers are rounded to {DIGITS} digits; the code that is generated has all of them.{fields}"
+    );
+    Ok(equations.into_iter().fold(section, Section::equation).remark(&remark))
+}
+
+/// The closed forms, with letters for fields that have values; nothing where they swell.
+fn forms(subject: &Subject<'_, '_>) -> Result<Option<ClosedForms>, Failure> {
+    let robot = subject.robot;
+    if robot.spec.known.is_empty() {
+        return Ok(closed_forms(&robot.model, subject.graph).ok());
+    }
+    let spec = RobotSpec { known: vec![], ..robot.spec.clone() };
+    let (graph, mut diags) = (Graph::new(), Diagnostics::new());
+    let model = model::build(&spec, &graph, &mut diags);
+    diags.check().map_err(|found| Failure::mistakes(found, subject.input))?;
+    Ok(model.and_then(|model| closed_forms(&model, &graph).ok()))
 }
 
 /// The equation of which these are the parts.

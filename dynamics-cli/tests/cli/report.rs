@@ -287,3 +287,22 @@ fn mistakes_are_told_before_anybody_waits() {
         assert!(said.contains(expected), "{said}");
     }
 }
+
+/// Of a robot whose fields have values the equations are those of the fields, and all else is of the values.
+#[test]
+fn fields_are_letters_in_equations() {
+    let spring = ["report", "../../examples/elastic_pendulum.rs", "--robot", "OnASpring"];
+    let values = ["--set", "m = 500g, k = 40N_per_m, l = 40cm, c = 0"];
+    let place = ["--state", r#"{"q": {"r": 0.5}}"#, "--q", "0.2,0.5"];
+    let html = dynamics(&[&spring[..], &values, &place].concat()).ok();
+    assert!(
+        html.contains("M(q) = \\begin{bmatrix} m r^{2} &amp; 0 \\\\ 0 &amp; m \\end{bmatrix}"),
+        "{}",
+        text(&html, "equations")
+    );
+    assert!(text(&html, "parameters").contains("bob 0.5"), "{}", text(&html, "parameters"));
+    // Where the spring has no length, its force has no direction.
+    let error = dynamics(&[&spring[..], &values].concat()).failed(1);
+    assert!(error.contains("does not move by its equations at q = [0.0, 0.0]"), "{error}");
+    assert!(error.contains("--state"), "{error}");
+}
