@@ -1,10 +1,10 @@
 //! Matrices and vectors of forms; of symmetric ones each entry is there once.
 
 use super::name::subscript;
-use super::{Form, Notation};
+use super::{Form, Notation, Unreadable};
 
-/// A matrix of forms; a vector is one of a single column.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// A matrix of forms; a vector is one of a single column. Two matrices are equal if their entries are.
+#[derive(Clone, Debug)]
 pub struct Matrix {
     rows: usize,
     columns: usize,
@@ -133,6 +133,76 @@ impl Matrix {
         text
     }
 }
+
+/// # Reading
+impl Matrix {
+    /// Reads what [`Matrix::unicode`] wrote, its lines one below the other, to the same matrix.
+    ///
+    /// # Errors
+    ///
+    /// The first place that cannot be read, in bytes from the start of the text.
+    pub fn parse_unicode(text: &str, notation: &Notation) -> Result<Self, Unreadable> {
+        let mut rows = Vec::new();
+        for line in text.lines() {
+            let at = line.as_ptr().addr() - text.as_ptr().addr();
+            let inside = line.trim().strip_prefix(['[', '⎡', '⎢', '⎣']);
+            let inside = inside.and_then(|inside| inside.strip_suffix([']', '⎤', '⎥', '⎦']));
+            let Some(inside) = inside else { return Err(Unreadable { at, expected: "a row in brackets" }) };
+            // Columns have two spaces between them, and entries none that are double.
+            let cells = inside.split("  ").filter(|cell| !cell.trim().is_empty());
+            rows.push(
+                cells
+                    .map(|cell| read(cell, text, notation, Form::parse_unicode))
+                    .collect::<Result<_, _>>()?,
+            );
+        }
+        Self::of_equal_rows(rows)
+    }
+
+    /// Reads what [`Matrix::latex`] wrote, to the same matrix.
+    ///
+    /// # Errors
+    ///
+    /// The first place that cannot be read, in bytes from the start of the text.
+    pub fn parse_latex(text: &str, notation: &Notation) -> Result<Self, Unreadable> {
+        let inside = text.trim().strip_prefix("\\begin{bmatrix}");
+        let inside = inside.and_then(|inside| inside.strip_suffix("\\end{bmatrix}"));
+        let Some(inside) = inside else { return Err(Unreadable { at: 0, expected: "a `bmatrix`" }) };
+        let row =
+            |row: &str| row.split('&').map(|cell| read(cell, text, notation, Form::parse_latex)).collect();
+        Self::of_equal_rows(inside.split("\\\\").map(row).collect::<Result<_, _>>()?)
+    }
+
+    fn of_equal_rows(rows: Vec<Vec<Form>>) -> Result<Self, Unreadable> {
+        match rows.iter().all(|row| row.len() == rows[0].len()) {
+            true => Ok(Self::of_rows(rows)),
+            false => Err(Unreadable { at: 0, expected: "rows of one length" }),
+        }
+    }
+}
+
+/// Reads an entry that is a part of a text.
+fn read(
+    cell: &str,
+    text: &str,
+    notation: &Notation,
+    parse: fn(&str, &Notation) -> Result<Form, Unreadable>,
+) -> Result<Form, Unreadable> {
+    let cell = cell.trim();
+    let before = cell.as_ptr().addr() - text.as_ptr().addr();
+    parse(cell, notation).map_err(|Unreadable { at, expected }| Unreadable { at: before + at, expected })
+}
+
+impl PartialEq for Matrix {
+    fn eq(&self, other: &Self) -> bool {
+        let same = |row: usize, column: usize| self.entry(row, column) == other.entry(row, column);
+        let size = (self.rows, self.columns);
+        size == (other.rows, other.columns)
+            && (0..size.0).all(|row| (0..size.1).all(|column| same(row, column)))
+    }
+}
+
+impl Eq for Matrix {}
 
 /// How many places a text takes: dots above letters take none.
 pub(super) fn width(text: &str) -> usize {

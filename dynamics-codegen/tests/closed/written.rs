@@ -148,7 +148,23 @@ fn all_of_it_is_read_back() {
             assert_eq!(Form::parse_unicode(&unicode, notation).as_ref(), Ok(&form), "{name}: {unicode}");
             assert_eq!(Form::parse_latex(&latex, notation).as_ref(), Ok(&form), "{name}: {latex}");
         }
+        for matrix in [&forms.mass_matrix, &forms.coriolis_matrix, &forms.gravity_forces] {
+            let (unicode, latex) = (matrix.unicode(notation).join("\n"), matrix.latex(notation));
+            assert_eq!(Matrix::parse_unicode(&unicode, notation).as_ref(), Ok(matrix), "{name}:\n{unicode}");
+            assert_eq!(Matrix::parse_latex(&latex, notation).as_ref(), Ok(matrix), "{name}: {latex}");
+        }
     }
+}
+
+/// A matrix that cannot be read says where.
+#[test]
+fn a_matrix_is_read_or_refused_at_its_place() {
+    let notation = forms(source("double_pendulum")).unwrap().notation;
+    let place = |text: &str| Matrix::parse_unicode(text, &notation).unwrap_err().at;
+    assert_eq!(place("[1  2]\n1  2]"), 7);
+    assert_eq!(place("[1  2 +]"), 8 - "]".len());
+    assert!(Matrix::parse_unicode("[1  2]\n[1]", &notation).is_err());
+    assert!(Matrix::parse_latex("\\begin{bmatrix} 1 & 2", &notation).is_err());
 }
 
 fn of_matrix(matrix: &Matrix) -> Vec<Form> {
