@@ -97,7 +97,8 @@ pub(crate) fn joints(input: &Input, spec: &RobotSpec, count: usize) -> String {
 pub(crate) fn base(input: &Input, robot: &Robot<'_>) -> String {
     if !input.is_of_file() {
         let carried = robot.spec.joints.iter().filter(|joint| joint.parent.text == "world");
-        let names: Vec<String> = carried.map(|joint| format!("`{}`", joint.child)).collect();
+        let names: Vec<String> =
+            carried.map(|joint| format!("`{}`", joint.child.text.trim_start_matches('\0'))).collect();
         return format!("the world carries {}", names.join(", "));
     }
     let root = &robot.report.root;

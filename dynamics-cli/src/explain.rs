@@ -8,9 +8,9 @@ mod unicode;
 use std::path::Path;
 
 use clap::ValueEnum;
-use dynamics_codegen::diagnostics::{Code, Diagnostics, did_you_mean};
+use dynamics_codegen::diagnostics::{Code, did_you_mean};
+use dynamics_codegen::judged;
 use dynamics_codegen::mechanics::lecture::lecture;
-use dynamics_codegen::model;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
@@ -91,10 +91,7 @@ fn derive(args: &Args, file: &Path) -> Result<(), Failure> {
         spec.ident = syn::Ident::new(&ident.to_string(), spec.ident.span());
     }
     let graph = Graph::new();
-    let mut diags = Diagnostics::new();
-    let model = model::build(&spec, &graph, &mut diags);
-    diags.check().map_err(|found| Failure::mistakes(found, &input))?;
-    let Some(model) = model else { return Ok(()) };
+    let model = judged(&spec, &graph).map_err(|found| Failure::mistakes(found, &input))?;
     let text = {
         let _progress = Progress::of("deriving");
         let lecture = lecture(&model, &graph);

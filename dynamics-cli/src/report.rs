@@ -120,8 +120,6 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             return Err(problem.help(format!("choose another place, as by `{option}`")).into());
         }
     }
-    // A file that cannot be written is found out before anybody waits.
-    let mut out = writer(args.output.as_deref(), &args.input.file)?;
     let html = {
         let _progress = Progress::of("writing the page");
         let name = shown(&args.title.clone().unwrap_or_else(|| robot_name(&robot)));
@@ -129,6 +127,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let subject = Subject { robot: &robot, graph: &graph, input: &input, name, notation, at };
         page(&subject, args, start)?.html().map_err(undrawn)?
     };
+    // Not before all is there: what the file had stays if nothing comes of it.
+    let mut out = writer(args.output.as_deref(), &args.input.file)?;
     let done = out.write_all(html.as_bytes()).and_then(|()| out.flush());
     done.map_err(|error| failed(args.output.as_deref(), &error))
 }

@@ -264,15 +264,8 @@ pub fn checked<'g>(
     graph: &'g Graph,
     run_time: RunTime,
 ) -> Result<(model::Model<'g>, passes::Compiled<'g>), Diagnostics> {
+    let model = judged(spec, graph)?; //      a checked kinematic tree
     let mut diags = Diagnostics::new();
-
-    let model = model::build(spec, graph, &mut diags); //      a checked kinematic tree
-    diags.check()?;
-    let model = model.expect("a model that is not built has been complained about");
-    check_terms(spec, &model, graph, &mut diags);
-    check_motions(spec, &model, graph, &mut diags);
-    diags.check()?;
-
     let outputs =
         spec.options.outputs.as_ref().map(|names| names.iter().map(|name| &*name.text).collect::<Vec<_>>());
     let methods = passes::methods(outputs.as_deref(), &model, run_time);
@@ -284,6 +277,26 @@ pub fn checked<'g>(
     check_against_plain_recursion(spec, &model, &compiled, &mut diags);
     diags.check()?;
     Ok((model, compiled))
+}
+
+/// A robot as judged, of which nothing has been derived.
+///
+/// # Errors
+///
+/// All mistakes of the first phase that found any.
+///
+/// # Panics
+///
+/// Never but by a bug of this crate.
+pub fn judged<'g>(spec: &RobotSpec, graph: &'g Graph) -> Result<model::Model<'g>, Diagnostics> {
+    let mut diags = Diagnostics::new();
+    let model = model::build(spec, graph, &mut diags);
+    diags.check()?;
+    let model = model.expect("a model that is not built has been complained about");
+    check_terms(spec, &model, graph, &mut diags);
+    check_motions(spec, &model, graph, &mut diags);
+    diags.check()?;
+    Ok(model)
 }
 
 /// What cannot be seen in a formula: points that are always one, and what is always zero.

@@ -464,7 +464,7 @@ impl Text<'_, '_> {
             }
         };
         self.text(&format!(
-            "The state is {state}, and {motors}. $M|M$ is positive definite, so that the equations can be solved for the \
+            "The state is {state}, and {motors}. Where $M|M$ is positive definite, the equations can be solved for the \
              accelerations, and $ẋ = f(x, u)|\\dot x = f(x, u)$ is"
         ));
         let (p, input) = (equations.passive.is_some(), driven);

@@ -15,7 +15,7 @@ pub(super) enum Factor {
     Pi,
     /// A symbol, after those of smaller rank.
     Symbol(u8, SymbolId),
-    /// A root, or what divides, by its place in the ring.
+    /// A root, what divides, or a sine in an angle, by its place in the ring.
     Other(usize),
     /// The sine or, if so, the cosine of an angle.
     Trig(Angle, bool),
@@ -195,15 +195,26 @@ impl<'a> Writer<'a> {
         match factor {
             Factor::Pi => Form::Number(Number::PI),
             Factor::Symbol(_, symbol) | Factor::Moving(symbol) => Form::Symbol(*symbol),
-            Factor::Other(place) => self
-                .others
-                .iter()
-                .find(|(known, _)| known == place)
-                .map_or(Form::ONE, |(_, form)| form.clone()),
+            Factor::Other(place) => match self.others.iter().find(|(known, _)| known == place) {
+                Some((_, form)) => form.clone(),
+                None => self.form_of_variable(*place),
+            },
             Factor::Trig(angle, is_cos) => {
                 let angle = self.angle(angle);
                 if *is_cos { angle.cos() } else { angle.sin() }
             }
+        }
+    }
+
+    /// A variable as it is written by itself.
+    fn form_of_variable(&self, place: usize) -> Form {
+        match &self.ring.variables()[place] {
+            Variable::Pi => Form::Number(Number::PI),
+            Variable::Symbol(symbol) => Form::Symbol(*symbol),
+            Variable::Sin(angle) => self.form(angle).sin(),
+            Variable::Cos(angle) => self.form(angle).cos(),
+            Variable::Root(inner) => self.form(inner).root(),
+            Variable::Inverse(inner) => self.form(inner),
         }
     }
 

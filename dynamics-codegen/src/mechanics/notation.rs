@@ -147,10 +147,19 @@ fn slide_letter(model: &Model<'_>, joint: &JointInfo) -> Option<&'static str> {
     (!is_taken).then_some(letter)
 }
 
+/// Parts of joints that are words, and their letters.
+const WORDS: [(&str, &str); 2] = [("angle", "theta"), ("distance", "d")];
+
 /// The names of a joint's several coordinates or speeds: the last parts of what they are called, as `x`, `qw`, `wz`.
 fn parts(names: &[String], joint: &JointInfo, index: &str) -> Vec<Name> {
     let part = |name: &String| {
         let part = name.strip_prefix(&joint.name).unwrap_or(name).trim_start_matches('.').to_owned();
+        if let Some((_, letter)) =
+            WORDS.iter().find(|(word, _)| part.trim_end_matches(|c: char| c.is_ascii_digit()) == *word)
+        {
+            let digits = part.trim_start_matches(|c: char| !c.is_ascii_digit());
+            return Name::indexed(letter, &format!("{digits}{index}"));
+        }
         let (letter, axis) = part.split_at(part.chars().next().map_or(0, char::len_utf8));
         let letter = if letter == "w" && !axis.is_empty() { "omega" } else { letter };
         Name::indexed(letter, &format!("{axis}{index}"))

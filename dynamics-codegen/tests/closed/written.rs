@@ -156,6 +156,25 @@ fn all_of_it_is_read_back() {
     }
 }
 
+/// Sines in angles, and what else is no sum of these.
+#[test]
+fn sines_in_angles_are_written() {
+    let printed = |potential: &str| {
+        let text = format!(
+            "#[coordinate(t: angle, armature = 1)] #[potential({potential})] struct Nested<T> {{ k: T, l: T }}"
+        );
+        let forms = forms(&text).unwrap();
+        let unicode = forms.potential_energy.unicode(&forms.notation);
+        assert_eq!(Form::parse_unicode(&unicode, &forms.notation).as_ref(), Ok(&forms.potential_energy));
+        unicode
+    };
+    assert_eq!(printed("k * sin(sin(t))"), "k sin(sin t)");
+    assert_eq!(printed("k * sin(t * sin(t))"), "k sin(t sin t)");
+    assert_eq!(printed("k * cos(3 * sin(t))"), "k cos(3 sin t)");
+    assert_eq!(printed("k * cos(sqrt(2 + cos(t)))"), "k cos(√(2 + cos t))");
+    assert_eq!(printed("k * sin(sin(sin(t)))"), "k sin(sin(sin t))");
+}
+
 /// A matrix that cannot be read says where.
 #[test]
 fn a_matrix_is_read_or_refused_at_its_place() {

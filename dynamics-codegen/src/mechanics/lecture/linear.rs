@@ -5,9 +5,9 @@ use super::figure::neutral;
 use super::{Linear, NoLinear, WITHOUT_NAMES};
 use crate::closed::{Form, Matrix, Notation, close};
 use crate::mechanics::equations::Inputs;
-use crate::mechanics::plain::{self, Dual};
+use crate::mechanics::plain::{self, Cholesky, Dual};
 use crate::model::{Model, Tree};
-use crate::symbolic::{Expr, Graph};
+use crate::symbolic::{Evaluator, Expr, Graph};
 
 /// The linear model where all coordinates are zero, and quaternions no rotation; displacements are along speeds.
 pub(super) fn linear<'g>(
@@ -24,7 +24,7 @@ pub(super) fn linear<'g>(
         return Err(NoLinear::Undefined);
     }
     let M = plain::mass_matrix(tree, &q);
-    if (0..n).any(|k| M[k][k].is_zero()) {
+    if (0..n).any(|k| M[k][k].is_zero()) || is_singular(model, graph, &M) {
         return Err(NoLinear::Undefined);
     }
     let moved: Tree<Dual<Expr<'g>>> = tree.map(Dual::constant);
@@ -64,3 +64,17 @@ pub(super) fn linear<'g>(
     let inputs = (0..n).map(|i| model.actuated.iter().map(|input| is_driven(i, input)).collect());
     Ok(Linear { mass_matrix, stiffness, damping, hold, lower, inputs: Matrix::of_rows(inputs.collect()) })
 }
+
+/// Whether M has no inverse, with values of their size for the fields: but for rounding a pivot is nothing.
+fn is_singular<'g>(model: &Model<'g>, graph: &'g Graph, M: &[Vec<Expr<'g>>]) -> bool {
+    let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
+    let mut values: Vec<Vec<f64>> =
+        M.iter().map(|row| row.iter().map(|&entry| evaluator.value(entry)).collect()).collect();
+    for (k, row) in values.iter_mut().enumerate() {
+        row[k] *= 1.0 - ROUNDING;
+    }
+    Cholesky::of(&values).is_none()
+}
+
+/// What rounding leaves of a pivot that is zero, of the inertia that it is the rest of.
+const ROUNDING: f64 = 1e-12;
