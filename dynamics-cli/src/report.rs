@@ -113,11 +113,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
     let at = state::read(&args.state, &args.input.file, &robot)?;
     let start = swing::start(&robot, args.q.as_deref(), args.v.as_deref())?;
-    for (state, option) in [(&at, "--state '{\"q\": [0.1, 0.2]}'"), (&start, "--q 0.1,0.2")] {
+    for (state, option) in [(&at, "--state"), (&start, "--q")] {
         if robot.evaluate(Method::ForwardDynamics, state).is_err() {
             let problem =
                 Problem::new(format!("the robot does not move by its equations at q = {:?}", state.q));
-            return Err(problem.help(format!("choose another place, as by `{option}`")).into());
+            return Err(problem.help(format!("choose another place by `{option}`")).into());
         }
     }
     let html = {

@@ -199,3 +199,16 @@ impl Form {
         }
     }
 }
+
+/// The terms of a sum, each with its sign in front: of a first one that is subtracted, of others that are, of others.
+pub(super) fn signed<'f>(
+    terms: &'f [Form],
+    [first_minus, minus, plus]: [&'f str; 3],
+) -> impl Iterator<Item = (&'f str, &'f Form)> {
+    terms.iter().enumerate().map(move |(k, term)| match (k, term) {
+        (0, Form::Negative(inner)) => (first_minus, &**inner),
+        (0, term) => ("", term),
+        (_, Form::Negative(inner)) => (minus, &**inner),
+        (_, term) => (plus, term),
+    })
+}

@@ -1,5 +1,6 @@
 //! Forms in LaTeX's mathematics: `m_2 r_1^{2} \cos^{2}\theta_2`.
 
+use super::form::signed;
 use super::numeral::Numeral;
 use super::unicode::Bond;
 use super::{Form, Notation};
@@ -40,13 +41,7 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             write(inner, Bond::Term, notation, text);
         }
         Form::Sum(terms) => {
-            for (k, term) in terms.iter().enumerate() {
-                let (sign, term) = match (k, term) {
-                    (0, Form::Negative(inner)) => ("-", &**inner),
-                    (0, term) => ("", term),
-                    (_, Form::Negative(inner)) => (" - ", &**inner),
-                    (_, term) => (" + ", term),
-                };
+            for (sign, term) in signed(terms, ["-", " - ", " + "]) {
                 text.push_str(sign);
                 write(term, Bond::Term, notation, text);
             }

@@ -1,5 +1,6 @@
 //! Forms in MathML: what browsers draw without anything else.
 
+use super::form::signed;
 use super::numeral::Numeral;
 use super::unicode::Bond;
 use super::{Form, Notation};
@@ -51,13 +52,9 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             write(inner, Bond::Term, notation, text);
         }
         Form::Sum(terms) => {
-            for (k, term) in terms.iter().enumerate() {
-                let (sign, term) = match (k, term) {
-                    (0, Form::Negative(inner)) => ("<mo form=\"prefix\">&#x2212;</mo>", &**inner),
-                    (0, term) => ("", term),
-                    (_, Form::Negative(inner)) => ("<mo>&#x2212;</mo>", &**inner),
-                    (_, term) => ("<mo>+</mo>", term),
-                };
+            for (sign, term) in
+                signed(terms, ["<mo form=\"prefix\">&#x2212;</mo>", "<mo>&#x2212;</mo>", "<mo>+</mo>"])
+            {
                 text.push_str(sign);
                 write(term, Bond::Term, notation, text);
             }

@@ -1,7 +1,7 @@
 //! What is written, and that it is read back.
 
-use super::{Form, Matrix, Name, Notation, Role, evaluate, math, of};
-use crate::symbolic::{Graph, Number, SymbolId};
+use super::{Form, Matrix, Name, Notation, Role, math};
+use crate::symbolic::{Number, SymbolId};
 
 /// The symbols of the tests, by their names.
 fn notation() -> Notation {
@@ -183,16 +183,4 @@ fn matrices_are_aligned() {
         "{}",
         cells.count()
     );
-}
-
-#[test]
-fn an_expression_is_a_form_as_it_was_computed() {
-    let (graph, notation) = (Graph::new(), notation());
-    let [m, l, angle] = [0, 2, 10].map(|k| graph.variable(SymbolId(k)));
-    let expr = m * l * l * angle.cos() - m / (l + angle);
-    let form = of(&graph, expr, 100).expect("it is short");
-    let value = |symbol: SymbolId| 0.5 + f64::from(symbol.0);
-    let mut evaluator = crate::symbolic::Evaluator::new(&graph, value);
-    assert!((evaluate(&form, &value) - evaluator.value(expr)).abs() < 1e-12, "{}", form.unicode(&notation));
-    assert_eq!(of(&graph, expr, 3), None);
 }

@@ -3,6 +3,7 @@
 //! A space multiplies, and a stroke divides all that stands before it in the product by the one thing after it:
 //! `m l²/3 (a + b)` is m l² over three, times a sum.
 
+use super::form::signed;
 use super::numeral::Numeral;
 use super::{Form, Notation};
 use crate::symbolic::Number;
@@ -72,13 +73,7 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             write(inner, Bond::Term, notation, text);
         }
         Form::Sum(terms) => {
-            for (k, term) in terms.iter().enumerate() {
-                let (sign, term) = match (k, term) {
-                    (0, Form::Negative(inner)) => ("−", &**inner),
-                    (0, term) => ("", term),
-                    (_, Form::Negative(inner)) => (" − ", &**inner),
-                    (_, term) => (" + ", term),
-                };
+            for (sign, term) in signed(terms, ["−", " − ", " + "]) {
                 text.push_str(sign);
                 write(term, Bond::Term, notation, text);
             }
