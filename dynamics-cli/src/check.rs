@@ -10,9 +10,10 @@ use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, T
 use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
 use crate::failure::Failure;
-use crate::input::{Input, InputArgs, shown};
+use crate::input::{Input, shown};
 use crate::output::{print, table};
 use crate::progress::Progress;
+use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
 use crate::tree;
 

@@ -5,8 +5,8 @@ use dynamics_codegen::passes::{CompiledMethod, Plan};
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::Failure;
-use crate::input::InputArgs;
 use crate::output::{print, table};
+use crate::reading::InputArgs;
 use crate::robot::{Robot, Wanted};
 
 /// Count the operations of each method

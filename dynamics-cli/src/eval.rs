@@ -7,9 +7,10 @@ use dynamics_codegen::symbolic::Graph;
 use serde_json::json;
 
 use crate::failure::{Failure, Problem};
-use crate::input::{InputArgs, shown};
+use crate::input::shown;
 use crate::output::print;
 use crate::progress::Progress;
+use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted, rows};
 use crate::state;
 

@@ -14,9 +14,10 @@ use dynamics_codegen::mechanics::lecture::lecture;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
-use crate::input::{ReadingArgs, shown};
+use crate::input::shown;
 use crate::output::print;
 use crate::progress::Progress;
+use crate::reading::ReadingArgs;
 
 /// Explain a mistake by its code, or derive the equations of a robot step by step
 ///

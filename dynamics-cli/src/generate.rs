@@ -10,9 +10,10 @@ use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::{generate_c, generate_rust};
 
 use crate::failure::{Failure, Problem};
-use crate::input::{Input, InputArgs, name_of, shown};
+use crate::input::{Input, name_of, shown};
 use crate::output::{failed, print, writer};
 use crate::progress::Progress;
+use crate::reading::InputArgs;
 use crate::robot::NAME;
 use crate::rust_item;
 

@@ -20,6 +20,7 @@ mod output;
 mod picture;
 mod progress;
 mod quantity;
+mod reading;
 mod render;
 mod report;
 mod robot;

@@ -20,10 +20,11 @@ use dynamics_codegen::symbolic::Graph;
 use dynamics_view::page::Page;
 
 use crate::failure::{Failure, Problem};
-use crate::input::{Input, InputArgs, shown};
+use crate::input::{Input, shown};
 use crate::output::{failed, writer};
 use crate::picture::{robot_name, undrawn};
 use crate::progress::Progress;
+use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
 use crate::simulate::{duration, step};
 use crate::state;

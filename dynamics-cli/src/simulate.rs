@@ -7,11 +7,11 @@ use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
-use crate::input::InputArgs;
 use crate::motion::{FixedStep, Mover};
 use crate::output::{failed, writer};
 use crate::picture::{PictureArgs, Recording};
 use crate::progress::Progress;
+use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
 use crate::state;
 

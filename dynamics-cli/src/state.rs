@@ -8,7 +8,8 @@ use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
 use crate::failure::{Failure, Problem, Spot};
-use crate::input::{bytes_of, name_of, shown};
+use crate::input::{name_of, shown};
+use crate::reading::bytes_of;
 use crate::robot::{Robot, State};
 
 const KEYS: [&str; 4] = ["q", "v", "a", "tau"];
