@@ -77,7 +77,7 @@ catalogue! {
     FieldTypesDiffer => "give all fields that the robot uses the same type",
     // Names
     /// The name was given before.
-    NameDuplicate => "give each joint and each body a name of its own",
+    NameDuplicate => "give each joint, each coordinate and each body a name of its own",
     /// Two bodies become the same Rust type.
     NamesCollide => "choose names that differ in more than case and underscores",
     /// The name cannot be used.

@@ -9,13 +9,37 @@ use crate::symbolic::Expr;
 
 /// Checks all terms, before there is a tree; those that have no mistake of their own.
 pub(super) fn check<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> Vec<&'s Formula> {
+    let ambiguous = ambiguous(spec, diags);
     let mut is_sound = |term: &&TermSpec| {
         let before = diags.len();
         let judge = Judge { spec, kind: term.kind };
         judge.names(&term.formula, false, diags);
-        diags.len() == before && diags.keep(judge.whole(term)).is_some()
+        let mut is_clear = true;
+        for_each_name(&term.formula, &mut |name| is_clear &= !ambiguous.contains(&&*name.text));
+        diags.len() == before && is_clear && diags.keep(judge.whole(term)).is_some()
     };
     spec.terms.iter().filter(&mut is_sound).map(|term| &term.formula).collect()
+}
+
+/// Names in terms that a field has, and a joint: each is complained about once, where it comes first.
+fn ambiguous<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> Vec<&'s str> {
+    let mut found: Vec<&str> = vec![];
+    for term in &spec.terms {
+        for_each_name(&term.formula, &mut |name| {
+            let field = spec.fields.iter().find(|field| field.name.text == name.text);
+            let joint = spec.joints.iter().find(|joint| joint.name.text == name.text);
+            if let (Some(field), Some(joint)) = (field, joint)
+                && !found.contains(&&*field.name.text)
+            {
+                let what = if joint.is_bare { "coordinate" } else { "joint" };
+                let message = format!("`{name}` is a field, and a {what}");
+                let ambiguous = Diagnostic::new(Code::NameAmbiguous, &name.place, message);
+                diags.push(ambiguous.help(format!("give the field or the {what} another name")));
+                found.push(&field.name.text);
+            }
+        });
+    }
+    found
 }
 
 /// What judges one term.
@@ -56,11 +80,13 @@ impl<'s> Judge<'s> {
             }
             Moving::Rate(of) => {
                 self.speed(place, "dot(…)", in_rate, diags);
-                if !self.moves(of) && !has_speed(of) {
+                let before = diags.len();
+                self.names(of, true, diags);
+                // Of what nobody knows it is not known whether it moves.
+                if diags.len() == before && !self.moves(of) && !has_speed(of) {
                     let message = format!("`dot({})` is the rate of what does not move", of.short_text());
                     diags.error(Code::TermIdle, place, message);
                 }
-                self.names(of, true, diags);
             }
             Moving::Distance(bodies) => {
                 let [a, b] = &**bodies;
@@ -78,11 +104,7 @@ impl<'s> Judge<'s> {
     fn name(&self, name: &Name) -> Result<()> {
         let is_field = self.spec.fields.iter().any(|field| field.name.text == name.text);
         match (is_field, self.joint(name)) {
-            (true, Some(_)) => {
-                let message = format!("`{name}` is a field, and a joint");
-                Err(Diagnostic::new(Code::NameAmbiguous, &name.place, message))
-            }
-            (true, None) => Ok(()),
+            (true, _) => Ok(()),
             (false, Some(joint)) if joint.kind.speeds() == 1 => Ok(()),
             (false, Some(joint)) => Err(whole_joint(joint, &name.place)),
             (false, None) if is_pi(name) => Ok(()),
@@ -161,10 +183,7 @@ impl<'s> Judge<'s> {
     fn moves(&self, formula: &Formula) -> bool {
         match &formula.kind {
             FormulaKind::Number(..) => false,
-            FormulaKind::Name(name) => {
-                self.joint(name).is_some()
-                    && !self.spec.fields.iter().any(|field| field.name.text == name.text)
-            }
+            FormulaKind::Name(name) => self.joint(name).is_some(),
             FormulaKind::Negative(inner) | FormulaKind::Call(_, inner) | FormulaKind::Power(inner, _) => {
                 self.moves(inner)
             }

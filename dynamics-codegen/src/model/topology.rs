@@ -141,13 +141,14 @@ fn moving(spec: &RobotSpec) -> impl Iterator<Item = &JointSpec> {
 /// The joint that carries each body.
 fn carriers<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> FxHashMap<&'s str, usize> {
     let mut carriers = FxHashMap::default();
-    for (i, JointSpec { child, name, .. }) in spec.joints.iter().enumerate() {
+    for (i, JointSpec { child, name, is_bare, .. }) in spec.joints.iter().enumerate() {
         if child.text == WORLD {
             diags.error(Code::WorldIsChild, &child.place, format!("the joint `{name}` carries the world"));
             continue;
         }
         let first: usize = *carriers.entry(child.text.as_str()).or_insert(i);
-        if first != i {
+        // What a coordinate carries nobody has named: its own name is complained about.
+        if first != i && !is_bare {
             let message = format!("`{child}` is carried by `{}` and by `{name}`", spec.joints[first].name);
             diags.error(Code::ParentTwice, &child.place, message);
         }
@@ -157,9 +158,10 @@ fn carriers<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> FxHashMap<&'s s
 
 /// Names given twice, names that cannot be used, and names that become the same identifier.
 fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
-    distinct_names("joint", spec.joints.iter().map(|joint| &joint.name), diags);
+    let joint = |joint: &'_ JointSpec| if joint.is_bare { "coordinate" } else { "joint" };
+    distinct_names(spec.joints.iter().map(|spec| (joint(spec), &spec.name)), diags);
     let mut bodies: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).collect();
-    distinct_names("body", bodies.iter().map(|(_, name)| *name), diags);
+    distinct_names(bodies.iter().map(|(_, name)| ("body", *name)), diags);
     let described: FxHashMap<_, _> = bodies.iter().map(|(_, name)| (name.text.as_str(), ())).collect();
     let frames = spec.joints.iter().filter(|joint| !joint.is_bare).map(|joint| (joint.line, &joint.child));
     let frames = frames.filter(|(_, name)| name.text != WORLD && !described.contains_key(&*name.text));
@@ -168,12 +170,16 @@ fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
     distinct_types(bodies.into_iter().map(|(_, name)| name), &spec.ident.to_string(), diags);
 }
 
-fn distinct_names<'s>(what: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
+/// Names, each with what it is of.
+fn distinct_names<'s>(names: impl Iterator<Item = (&'static str, &'s Name)>, diags: &mut Diagnostics) {
     let mut seen = FxHashMap::default();
-    for name in names {
-        if seen.insert(name.text.as_str(), ()).is_some() {
-            diags.error(Code::NameDuplicate, &name.place, format!("there are two {what} lines for `{name}`"));
-        }
+    for (what, name) in names {
+        let message = match seen.insert(name.text.as_str(), what) {
+            None => continue,
+            Some(first) if first == what => format!("there are two {what} lines for `{name}`"),
+            Some(first) => format!("there are a {first} line and a {what} line for `{name}`"),
+        };
+        diags.error(Code::NameDuplicate, &name.place, message);
     }
 }
 
