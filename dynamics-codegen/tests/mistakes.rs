@@ -104,6 +104,7 @@ const LINES: &[(Code, &str)] = &[
     (Code::NamesCollide, "J B #[joint(f: fixed, a -> A)]"),
     (Code::NameReserved, "J B #[body(world, mass = 1, inertia = diag(1, 1, 1))]"),
     (Code::NameReserved, "J B #[joint(f: fixed, a -> __)]"),
+    (Code::NameReserved, "#[joint(pi: revolute(z), world -> a)] B #[potential(1J * cos(pi))]"),
     (Code::JointMissing, ""),
     (Code::DegreesOfFreedomMissing, "#[joint(q: fixed, world -> a)] B"),
     (Code::DegreesOfFreedomMissing, "#[joint(q: revolute(z), world -> a, locked = 0)] B"),
@@ -300,6 +301,13 @@ fn structs() -> Vec<(Code, String)> {
     vec![
         (Code::NestingTooDeep, deep),
         (Code::JointsTooMany, format!("{many} struct S;")),
+        (Code::NameReserved, format!("{JOINT} #[body(a, solid = rod(1, pi, x))] struct S<T> {{ pi: T }}")),
+        (
+            Code::NameReserved,
+            format!(
+                "#[joint(q: revolute(z), world -> a, rpy = [0, 0, π / 4])] {BODY} struct S<T> {{ π: T }}"
+            ),
+        ),
         (Code::StructNeeded, "enum E { A }".to_owned()),
         (Code::StructNeeded, "union U { a: u8 }".to_owned()),
         (Code::StructNeeded, "struct S(f64);".to_owned()),

@@ -55,7 +55,8 @@ use proc_macro::TokenStream;
 /// value   = term (("+" | "-") term)*
 /// term    = factor (("*" | "/") factor)*
 /// factor  = "-" factor | atom ["^" whole number]
-/// atom    = "(" value ")" | ("sin" | "cos" | "sqrt") "(" value ")" | field | "pi" | number
+/// atom    = "(" value ")" | ("sin" | "cos" | "sqrt") "(" value ")" | field | pi | number
+/// pi      = "pi" | "PI" | "π"
 /// number  = a decimal literal of Rust, directly followed by a unit or by nothing
 /// unit    = m cm mm um km  kg g t  s ms  rad deg  N Nm  Nms N_per_m Ns_per_m kg_m2 J W
 /// vector  = "[" value "," value "," value "]"
@@ -69,6 +70,9 @@ use proc_macro::TokenStream;
 /// value or a summand, and none if it is a factor or divisor. The unit of a field is inferred from its uses. What does
 /// not fit is an error: `inertia = diag(m * r, …)` needs a second `r`. An angle of more than a full turn (a limit of
 /// more than three) must say `deg` or `rad`.
+///
+/// `pi`, `PI` and `π` are the number: no field and no joint that a formula could mean has such a name. Names of functions
+/// are free, for a function is followed by a parenthesis.
 ///
 /// # `#[joint(name: kind(axis), parent -> child, …)]`
 ///

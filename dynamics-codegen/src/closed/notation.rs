@@ -41,8 +41,8 @@ pub enum Role {
     Force,
 }
 
-/// What no name can be.
-const RESERVED: [&str; 4] = ["sin", "cos", "π", "\\pi"];
+/// What no name can be, in Unicode and in LaTeX.
+const RESERVED: [&[&str]; 2] = [&["sin", "cos", "π"], &["\\pi"]];
 
 impl Notation {
     /// No symbols.
@@ -50,23 +50,27 @@ impl Notation {
         Self::default()
     }
 
-    /// Adds the next symbol, which is that of its place; a name that is taken becomes a word with underscores.
-    pub fn add(&mut self, name: Name, role: Role) -> SymbolId {
-        let symbol = SymbolId(u32::try_from(self.letters.len()).expect("fewer than 2^32 symbols"));
-        let (mut name, mut text) = (name.clone(), name.unicode());
-        loop {
-            let texts = [name.unicode(), name.latex()];
-            let is_taken = |text: &String| {
-                RESERVED.contains(&text.as_str())
-                    || self.letters.iter().any(|letter| letter.texts.contains(text))
-            };
-            if !texts.iter().any(is_taken) {
-                self.letters.push(Letter { name, role, rank: 0, texts });
-                return symbol;
-            }
-            text.push('_');
-            name = Name::word(&text);
+    /// Adds the next symbol, which is that of its place; a name that is taken gets marks.
+    pub fn add(&mut self, mut name: Name, role: Role) -> SymbolId {
+        while !self.is_free(&name) {
+            name = name.marked();
         }
+        let texts = [name.unicode(), name.latex()];
+        self.letters.push(Letter { name, role, rank: 0, texts });
+        SymbolId(u32::try_from(self.letters.len() - 1).expect("fewer than 2^32 symbols"))
+    }
+
+    /// Whether a name is written like that of no symbol, nor like π or a function.
+    pub fn is_free(&self, name: &Name) -> bool {
+        let is_taken = |(k, text): (usize, &String)| {
+            RESERVED[k].contains(&&**text) || self.letters.iter().any(|letter| letter.texts[k] == *text)
+        };
+        ![name.unicode(), name.latex()].iter().enumerate().any(is_taken)
+    }
+
+    /// All symbols, in their order.
+    pub fn letters(&self) -> &[Letter] {
+        &self.letters
     }
 
     /// Moves a parameter behind those of smaller rank; without it the rank is zero, and symbols have their own order.
@@ -117,8 +121,9 @@ impl Notation {
     /// The symbol whose name a text begins with, the longest, and how long it is.
     pub(super) fn at_start_of(&self, text: &str, latex: bool) -> Option<(SymbolId, usize)> {
         let name = |k: usize| self.letters[k].texts[usize::from(latex)].as_str();
-        let goes_on =
-            |c: char| c.is_alphabetic() || matches!(c, '_' | '0'..='9' | '₀'..='₉' | '\u{300}'..='\u{36f}');
+        let goes_on = |c: char| {
+            c.is_alphabetic() || matches!(c, '_' | '\'' | '′' | '0'..='9' | '₀'..='₉' | '\u{300}'..='\u{36f}')
+        };
         let begins = |&k: &usize| text.strip_prefix(name(k)).is_some_and(|rest| !rest.starts_with(goes_on));
         let found = (0..self.letters.len()).filter(begins).max_by_key(|&k| name(k).len())?;
         Some((SymbolId(u32::try_from(found).ok()?), name(found).len()))

@@ -148,7 +148,7 @@ fn live(graph: &Graph, exprs: &[Expr<'_>]) -> (Vec<NodeId>, NodeMap<usize>) {
 
 /// A letter that no symbol has.
 fn free_letter(notation: &Notation) -> &'static str {
-    const LETTERS: [&str; 12] = ["k", "a", "b", "c", "e", "p", "u", "w", "n", "s", "t", "f"];
+    const LETTERS: [&str; 12] = ["k", "b", "c", "e", "w", "n", "s", "f", "r", "y", "z", "j"];
     let is_free = |letter: &&&str| !notation.has_letter(letter);
     LETTERS.iter().find(is_free).copied().unwrap_or("k")
 }

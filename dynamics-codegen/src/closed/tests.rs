@@ -54,7 +54,7 @@ fn no_two_symbols_have_one_name() {
         notation.add(Name::read(text), Role::Parameter);
     }
     let names: Vec<_> = (0..4).map(|k| symbol(k).unicode(&notation)).collect();
-    assert_eq!(names, ["m₁", "m₁_", "sin_", "m₁__"]);
+    assert_eq!(names, ["m₁", "m₁′", "sin_", "m₁′′"]);
 }
 
 #[test]

@@ -13,6 +13,7 @@ pub mod equations;
 pub mod factor;
 pub mod frames;
 pub mod gauge;
+mod joint_names;
 pub mod lagrange;
 pub mod lecture;
 pub mod method;

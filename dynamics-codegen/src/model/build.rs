@@ -10,7 +10,7 @@ use super::quantities::slots;
 use super::shapes::{pseudo_inertia, snap_of};
 use super::terms::{self, Meaning, Whereabouts};
 use super::topology::{Coordinate, Topology};
-use super::values::{Result, Values};
+use super::values::{self, Result, Values};
 use super::{
     Drive, Frame, JointInfo, Limits, Link, LinkInfo, Model, Motion, Passive, Terms, Tree, lines, physics,
 };
@@ -26,6 +26,10 @@ use crate::symbolic::{Expr, Graph, Number};
 pub fn build<'g>(spec: &RobotSpec, graph: &'g Graph, diags: &mut Diagnostics) -> Option<Model<'g>> {
     let before = diags.len();
     let mut slots = slots(spec);
+    values::check_reserved(spec, &slots, diags);
+    if diags.len() > before {
+        return None;
+    }
     lines::check(spec, &slots, diags);
     // A term that is none tells nothing of units.
     let sound = terms::check(spec, diags);

@@ -273,9 +273,35 @@ pub(super) fn for_each_name(formula: &Formula, visit: &mut impl FnMut(&Name)) {
     }
 }
 
-/// Whether a name that is no field is the constant.
+/// What the number π is called in formulas.
+const PI: [&str; 3] = ["pi", "PI", "π"];
+
+/// Whether a name is that of the number π.
 pub(super) fn is_pi(name: &Name) -> bool {
-    matches!(name.text.as_str(), "pi" | "PI")
+    PI.contains(&name.text.as_str())
+}
+
+/// Fields and joints that would hide π from a formula, each once, where they are declared.
+pub(super) fn check_reserved(spec: &RobotSpec, slots: &[Slot], diags: &mut Diagnostics) {
+    let mut asked = [false; PI.len()];
+    for slot in slots {
+        for_each_name(slot.formula, &mut |name| {
+            if let Some(at) = PI.iter().position(|known| *known == name.text) {
+                // A value has no joints.
+                let is_hidden =
+                    slot.is_term() || spec.fields.iter().any(|field| field.name.text == name.text);
+                asked[at] |= is_hidden;
+            }
+        });
+    }
+    let is_asked = |name: &Name| PI.iter().zip(asked).any(|(known, asked)| asked && *known == name.text);
+    let fields = spec.fields.iter().map(|field| ("field", &field.name));
+    let joints = spec.joints.iter().map(|joint| ("joint", &joint.name));
+    for (what, name) in fields.chain(joints).filter(|(_, name)| is_asked(name)) {
+        let message = format!("the {what} `{name}` hides the number π, which formulas call so");
+        let help = "choose another name: `pi`, `PI` and `π` are the number in every formula";
+        diags.push(Diagnostic::new(Code::NameReserved, &name.place, message).help(help));
+    }
 }
 
 fn in_si(value: Number, unit: Option<Unit>) -> Number {

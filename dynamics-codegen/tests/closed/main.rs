@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 mod field;
+mod letters;
 mod proof;
 mod properties;
 mod robots;
