@@ -20,6 +20,7 @@ mod notation;
 mod numeral;
 mod parse;
 mod polynomial;
+mod quotient;
 mod ring;
 mod share;
 #[cfg(test)]

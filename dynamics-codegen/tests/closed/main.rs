@@ -5,4 +5,5 @@ mod field;
 mod proof;
 mod properties;
 mod robots;
+mod textbook;
 mod written;
