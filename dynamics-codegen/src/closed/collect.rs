@@ -38,14 +38,24 @@ impl Writer<'_> {
             2..=ITEMS => {}
             _ => return Form::sum(items.iter().map(|item| self.item(item))),
         }
-        let whole = self.by_parts(items.clone());
-        let (outside, inside) = split_common(items);
+        let mut best = self.by_parts(items.clone());
+        let (mut outside, inside) = split_common(items);
+        if let Some((scale, form)) = self.factored(&inside) {
+            let number = outside.coefficient;
+            outside.coefficient = number * scale;
+            best = self.shorter(self.bracketed(&outside, &inside, form), best);
+            outside.coefficient = number;
+        }
         if outside.factors.is_empty() && outside.coefficient.abs().is_one() {
-            return whole;
+            return best;
         }
         let inner = self.by_parts(inside.clone());
-        let pulled = self.bracketed(&outside, &inside, inner);
-        if self.length(&pulled) <= self.length(&whole) { pulled } else { whole }
+        self.shorter(self.bracketed(&outside, &inside, inner), best)
+    }
+
+    /// The shorter one of two forms, and the first of equals.
+    fn shorter(&self, first: Form, second: Form) -> Form {
+        if self.length(&first) <= self.length(&second) { first } else { second }
     }
 
     /// The sum of items by what they share: by masses and the like first, or by what saves most if that is shorter.
@@ -55,7 +65,7 @@ impl Writer<'_> {
             return by_gain;
         }
         let by_weight = self.sum_of(self.parts(items, true));
-        if self.length(&by_weight) <= self.length(&by_gain) { by_weight } else { by_gain }
+        self.shorter(by_weight, by_gain)
     }
 
     /// The parts of a sum whose items have nothing in common.

@@ -8,6 +8,7 @@ mod close;
 mod collect;
 mod evaluate;
 mod expand;
+mod factor;
 mod form;
 mod item;
 mod latex;

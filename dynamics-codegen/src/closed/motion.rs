@@ -178,7 +178,7 @@ impl Writer<'_> {
     }
 
     /// The items of a polynomial without speeds, its sines written shortest.
-    fn items(&self, polynomial: &Polynomial) -> Vec<Item> {
+    pub(super) fn items(&self, polynomial: &Polynomial) -> Vec<Item> {
         let is_trig =
             |place: usize| matches!(self.ring.variables()[place], Variable::Sin(_) | Variable::Cos(_));
         let mut groups: Vec<(Monomial, Vec<_>)> = Vec::new();
