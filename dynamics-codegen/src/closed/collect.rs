@@ -20,6 +20,20 @@ const WEIGHTY: u8 = 2;
 /// Sums of more items are not collected.
 const ITEMS: usize = 80;
 
+/// Sums of no more items are collected by sines, whatever their terms are.
+const FEW: usize = 4;
+
+/// What is preferred to be pulled out of terms.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Prefer {
+    /// What saves most.
+    Gain,
+    /// Masses and the like.
+    Weight,
+    /// Sines and cosines, but not their squares.
+    Sines,
+}
+
 /// A part of a sum: a number times factors, perhaps times a bracket.
 #[derive(Clone, Debug)]
 struct Part {
@@ -38,31 +52,52 @@ impl Writer<'_> {
             2..=ITEMS => {}
             _ => return Form::sum(items.iter().map(|item| self.item(item))),
         }
-        let whole = self.by_parts(items.clone());
-        let (outside, inside) = split_common(items);
+        let mut best = self.by_parts(items.clone());
+        let (mut outside, inside) = split_common(items);
+        if let Some((scale, form)) = self.factored(&inside) {
+            let number = outside.coefficient;
+            outside.coefficient = number * scale;
+            best = self.shorter(self.bracketed(&outside, &inside, form), best);
+            outside.coefficient = number;
+        }
         if outside.factors.is_empty() && outside.coefficient.abs().is_one() {
-            return whole;
+            return best;
         }
         let inner = self.by_parts(inside.clone());
-        let pulled = self.bracketed(&outside, &inside, inner);
-        if self.length(&pulled) <= self.length(&whole) { pulled } else { whole }
+        self.shorter(self.bracketed(&outside, &inside, inner), best)
     }
 
-    /// The sum of items by what they share: by masses and the like first, or by what saves most if that is shorter.
+    /// The shorter one of two forms, and the first of equals.
+    fn shorter(&self, first: Form, second: Form) -> Form {
+        if self.length(&first) <= self.length(&second) { first } else { second }
+    }
+
+    /// The sum of items by what they share: by masses and the like first, or by what saves most, or by sines if that is
+    /// shorter.
     fn by_parts(&self, items: Vec<Item>) -> Form {
-        let by_gain = self.sum_of(self.parts(items.clone(), false));
-        if items.len() > ITEMS / 2 || best_shared(&items, true, &[]) == best_shared(&items, false, &[]) {
-            return by_gain;
+        let mut best = self.sum_of(self.parts(items.clone(), Prefer::Gain));
+        if items.len() > ITEMS / 2 {
+            return best;
         }
-        let by_weight = self.sum_of(self.parts(items, true));
-        if self.length(&by_weight) <= self.length(&by_gain) { by_weight } else { by_gain }
+        let by_gain = best_shared(&items, Prefer::Gain, &[]);
+        if best_shared(&items, Prefer::Weight, &[]) != by_gain {
+            best = self.shorter(self.sum_of(self.parts(items.clone(), Prefer::Weight)), best);
+        }
+        // Where all have sines, as in G, or there are a few terms.
+        let has_sine = |item: &Item| item.factors.iter().any(|(factor, _)| factor.is_trig());
+        if (items.len() <= FEW || items.iter().all(has_sine))
+            && best_shared(&items, Prefer::Sines, &[]) != by_gain
+        {
+            best = self.shorter(best, self.sum_of(self.parts(items, Prefer::Sines)));
+        }
+        best
     }
 
     /// The parts of a sum whose items have nothing in common.
-    fn parts(&self, mut items: Vec<Item>, by_weight: bool) -> Vec<Part> {
+    fn parts(&self, mut items: Vec<Item>, prefer: Prefer) -> Vec<Part> {
         let mut parts: Vec<Part> = Vec::new();
         let mut angles: Vec<Angle> = Vec::new();
-        while let Some(shared) = best_shared(&items, by_weight, &angles) {
+        while let Some(shared) = best_shared(&items, prefer, &angles) {
             let (group, rest): (Vec<_>, Vec<_>) = items.into_iter().partition(|item| has_all(item, &shared));
             items = rest;
             let mut inside: Vec<Item> = group.into_iter().map(|item| without(item, &shared)).collect();
@@ -337,9 +372,8 @@ fn without(mut item: Item, shared: &[(Factor, i32)]) -> Item {
 /// Powers of factors that several items share.
 type Shared = Vec<(Factor, i32)>;
 
-/// The factors that several items share and that save most if they are pulled out of these; by weight, masses and the like
-/// come first. Of the `angles`, terms are collected already: what else has them is, too.
-fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<(Factor, i32)>> {
+/// The factors that several items share and that save most if they are pulled out of these; what is preferred comes first. Of the `angles`, terms are collected already: what else has them is, too.
+fn best_shared(items: &[Item], prefer: Prefer, angles: &[Angle]) -> Option<Vec<(Factor, i32)>> {
     // Whether it has what is preferred, what it saves, what it is.
     let mut best: Option<((bool, usize), Shared)> = None;
     for (k, first) in items.iter().enumerate() {
@@ -349,7 +383,7 @@ fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<
             if shared.is_empty() || best.as_ref().is_some_and(|(_, known)| *known == shared) {
                 continue;
             }
-            let weight: usize = shared.iter().map(|(factor, _)| weight(factor, angles)).sum();
+            let weight: usize = shared.iter().map(|factor| weight(factor, prefer, angles)).sum();
             let mut group = items.iter().filter(|item| has_all(item, &shared));
             let count = group.clone().count();
             // A sum of masses is read as one.
@@ -360,9 +394,12 @@ fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<
             let bracket = if group.all(is_mass) { BRACKET - 1 } else { BRACKET };
             let gain = (weight * (count - 1)).checked_sub(bracket).filter(|gain| *gain > 0);
             let Some(gain) = gain else { continue };
-            let is_weighty =
-                |(factor, _): &(Factor, i32)| matches!(factor, Factor::Symbol(rank, _) if *rank <= WEIGHTY);
-            let worth = (by_weight && shared.iter().any(is_weighty), gain);
+            let is_preferred = |factor: &(Factor, i32)| match (prefer, factor) {
+                (Prefer::Weight, (Factor::Symbol(rank, _), _)) => *rank <= WEIGHTY,
+                (Prefer::Sines, (Factor::Trig(..), 1)) => true,
+                _ => false,
+            };
+            let worth = (shared.iter().any(is_preferred), gain);
             let is_better = match &best {
                 None => true,
                 Some((known, factors)) => worth > *known || worth == *known && shared < *factors,
@@ -377,8 +414,9 @@ fn best_shared(items: &[Item], by_weight: bool, angles: &[Angle]) -> Option<Vec<
 
 /// What it saves to write a factor once less. A length alone is left in two terms, and pulled out of three; sines are a
 /// little less than that.
-fn weight(factor: &Factor, angles: &[Angle]) -> usize {
+fn weight((factor, exponent): &(Factor, i32), prefer: Prefer, angles: &[Angle]) -> usize {
     match factor {
+        Factor::Trig(..) if prefer == Prefer::Sines && *exponent == 1 => factor.length(),
         Factor::Trig(angle, _) if !angles.contains(angle) => 2,
         Factor::Symbol(rank, _) if *rank > WEIGHTY => 3,
         _ => 4,

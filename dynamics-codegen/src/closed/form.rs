@@ -189,6 +189,15 @@ impl Form {
         }
     }
 
+    /// Whether it ends with the argument of a sine or cosine, for it is one or a power of one.
+    pub(super) fn is_function(&self) -> bool {
+        match self {
+            Self::Sin(_) | Self::Cos(_) => true,
+            Self::Power(base, _) => base.is_function(),
+            _ => false,
+        }
+    }
+
     /// The parts of a form.
     pub fn parts(&self) -> Vec<&Self> {
         match self {

@@ -1,6 +1,8 @@
 //! Terms on the way to paper: a number times factors, in the order in which these are written.
 
+use super::monomial::Monomial;
 use super::notation::{Notation, Role};
+use super::quotient::Other;
 use super::ring::{Ring, Variable};
 use super::{Form, Polynomial};
 use crate::symbolic::{Number, SymbolId};
@@ -70,6 +72,11 @@ pub(super) struct Item {
 }
 
 impl Item {
+    /// The exponent of a factor.
+    pub(super) fn exponent(&self, factor: &Factor) -> i32 {
+        self.factors.iter().find(|(known, _)| known == factor).map_or(0, |(_, exponent)| *exponent)
+    }
+
     /// The product with another factor's power.
     pub(super) fn multiply(&mut self, factor: Factor, exponent: i32) {
         let place = self.factors.iter().position(|(known, _)| *known >= factor);
@@ -92,8 +99,8 @@ pub(super) struct Writer<'a> {
     pub(super) ring: &'a Ring,
     /// The places of the ring's angles: sine and cosine.
     pub(super) angles: Vec<[usize; 2]>,
-    /// The forms of roots and of what divides.
-    pub(super) others: Vec<(usize, Form)>,
+    /// Roots and what divides.
+    pub(super) others: Vec<Other>,
 }
 
 impl<'a> Writer<'a> {
@@ -109,17 +116,12 @@ impl<'a> Writer<'a> {
         }
         let mut writer = Self { notation, ring, angles, others: vec![] };
         for (place, variable) in ring.variables().iter().enumerate() {
-            match variable {
-                Variable::Root(inner) => {
-                    let form = writer.form(inner).root();
-                    writer.others.push((place, form));
-                }
-                Variable::Inverse(inner) => {
-                    let form = writer.form(inner);
-                    writer.others.push((place, form));
-                }
-                _ => {}
-            }
+            let other = match variable {
+                Variable::Root(inner) => Other::root(place, inner, &writer),
+                Variable::Inverse(inner) => Other::below(place, inner, &writer),
+                _ => continue,
+            };
+            writer.others.push(other);
         }
         writer
     }
@@ -133,70 +135,26 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// A monomial without sines as a product of factors.
+    pub(super) fn plain(&self, monomial: &Monomial) -> Item {
+        let mut item = Item { coefficient: Number::ONE, factors: vec![] };
+        for (place, exponent) in monomial.exponents() {
+            item.multiply(self.factor(place), exponent);
+        }
+        self.tidy(item)
+    }
+
     /// How an item is written: what divides stands below.
     pub(super) fn item(&self, item: &Item) -> Form {
         self.product(item.coefficient, &item.factors, vec![])
     }
 
-    /// A number times factors times other forms, which stand where factors of their kind would: `(place, form)` is
-    /// before the factor with that place.
-    pub(super) fn product(
-        &self,
-        coefficient: Number,
-        factors: &[(Factor, i32)],
-        others: Vec<(usize, Form)>,
-    ) -> Form {
-        let (mut above, mut below) = (Vec::new(), Vec::new());
-        let mut others = others.into_iter().peekable();
-        for k in 0..=factors.len() {
-            while let Some((_, form)) = others.next_if(|(place, _)| *place <= k) {
-                above.push(form);
-            }
-            let Some((factor, exponent)) = factors.get(k) else { continue };
-            let form = self.form_of_factor(factor);
-            let is_inverse = matches!(factor, Factor::Other(place) if matches!(self.ring.variables()[*place], Variable::Inverse(_)));
-            let power = form.power(exponent.unsigned_abs());
-            if (*exponent < 0) != is_inverse { below.push(power) } else { above.push(power) }
-        }
-        above.extend(others.map(|(_, form)| form));
-        let magnitude = coefficient.abs();
-        let (num, den) = match magnitude {
-            Number::Exact(exact) if is_below(exact.numerator(), exact.denominator()) && !above.is_empty() => {
-                let whole = |value: i128| Number::parse_decimal(&value.to_string()).unwrap_or(Number::ONE);
-                (whole(exact.numerator()), whole(exact.denominator()))
-            }
-            _ => (magnitude, Number::ONE),
-        };
-        below.insert(0, Form::Number(den));
-        let below = Form::product(below);
-        let number = Form::number(num);
-        let form = if below.is_one() {
-            Form::product(std::iter::once(number).chain(above))
-        } else {
-            // What divides stands below what the body is, and not below brackets, sines and speeds.
-            let is_short = |form: &Form| match form {
-                Form::Power(base, _) => matches!(**base, Form::Symbol(_)) && !self.is_moving(base),
-                form => matches!(form, Form::Symbol(_) | Form::Number(_)) && !self.is_moving(form),
-            };
-            let divided = above.iter().take_while(|form| is_short(form)).count();
-            let divided = if divided == 0 && num.is_one() { above.len() } else { divided };
-            let rest = above.split_off(divided);
-            let quotient = Form::product(std::iter::once(number).chain(above)).over(below);
-            Form::product(std::iter::once(quotient).chain(rest))
-        };
-        if coefficient.is_negative() { form.negative() } else { form }
-    }
-
-    fn is_moving(&self, form: &Form) -> bool {
-        matches!(form, Form::Symbol(symbol) if self.notation.letter(*symbol).role > Role::Coordinate)
-    }
-
-    fn form_of_factor(&self, factor: &Factor) -> Form {
+    pub(super) fn form_of_factor(&self, factor: &Factor) -> Form {
         match factor {
             Factor::Pi => Form::Number(Number::PI),
             Factor::Symbol(_, symbol) | Factor::Moving(symbol) => Form::Symbol(*symbol),
-            Factor::Other(place) => match self.others.iter().find(|(known, _)| known == place) {
-                Some((_, form)) => form.clone(),
+            Factor::Other(place) => match self.others.iter().find(|other| other.place == *place) {
+                Some(other) => other.form.clone(),
                 None => self.form_of_variable(*place),
             },
             Factor::Trig(angle, is_cos) => {
@@ -232,10 +190,8 @@ impl<'a> Writer<'a> {
             .terms()
             .iter()
             .map(|(monomial, coefficient)| {
-                let mut item = Item { coefficient: *coefficient, factors: vec![] };
-                for (place, exponent) in monomial.exponents() {
-                    item.multiply(self.factor(place), exponent);
-                }
+                let mut item = self.plain(monomial);
+                item.coefficient = item.coefficient * *coefficient;
                 item
             })
             .collect();
@@ -244,15 +200,4 @@ impl<'a> Writer<'a> {
         });
         Form::sum(items.iter().map(|item| self.item(item)))
     }
-}
-
-/// Whether a coefficient is written as a fraction with the denominator below: thirds and the like, with small numbers.
-fn is_below(num: i128, den: i128) -> bool {
-    let mut rest = den >> den.trailing_zeros();
-    while rest % 5 == 0 {
-        rest /= 5;
-    }
-    let is_decimal = rest == 1;
-    let is_half = den == 2 || den == 4 && num != 1;
-    den > 1 && !is_half && (!is_decimal || den <= 32 && num == 1 && den.count_ones() == 1)
 }

@@ -51,7 +51,10 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
                 if k > 0 {
                     text.push_str(if matches!(factors[k - 1], Form::Number(_)) { " \\, " } else { " " });
                 }
-                write(factor, Bond::Factor, notation, text);
+                match factor {
+                    Form::Number(value) => number(&Numeral::in_front(*value), text),
+                    factor => write(factor, Bond::Factor, notation, text),
+                }
             }
         }
         Form::Quotient(above, below) => {

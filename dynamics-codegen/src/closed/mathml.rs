@@ -63,11 +63,14 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             for (k, factor) in factors.iter().enumerate() {
                 if k > 0 {
                     text.push_str(TIMES);
-                    if is_function(factor) || is_function(&factors[k - 1]) {
+                    if factor.is_function() || factors[k - 1].is_function() {
                         text.push_str(THIN);
                     }
                 }
-                write(factor, Bond::Factor, notation, text);
+                match factor {
+                    Form::Number(value) => number(&Numeral::in_front(*value), text),
+                    factor => write(factor, Bond::Factor, notation, text),
+                }
             }
         }
         Form::Quotient(above, below) => {
@@ -92,15 +95,6 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
             text.push_str(&inner.mathml(notation));
             text.push_str("</msqrt>");
         }
-    }
-}
-
-/// Whether it is written with the name of a function before it.
-fn is_function(form: &Form) -> bool {
-    match form {
-        Form::Sin(_) | Form::Cos(_) => true,
-        Form::Power(base, _) => is_function(base),
-        _ => false,
     }
 }
 

@@ -8,6 +8,7 @@ mod close;
 mod collect;
 mod evaluate;
 mod expand;
+mod factor;
 mod form;
 mod item;
 mod latex;
@@ -20,6 +21,7 @@ mod notation;
 mod numeral;
 mod parse;
 mod polynomial;
+mod quotient;
 mod ring;
 mod share;
 #[cfg(test)]

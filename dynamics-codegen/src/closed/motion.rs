@@ -178,7 +178,7 @@ impl Writer<'_> {
     }
 
     /// The items of a polynomial without speeds, its sines written shortest.
-    fn items(&self, polynomial: &Polynomial) -> Vec<Item> {
+    pub(super) fn items(&self, polynomial: &Polynomial) -> Vec<Item> {
         let is_trig =
             |place: usize| matches!(self.ring.variables()[place], Variable::Sin(_) | Variable::Cos(_));
         let mut groups: Vec<(Monomial, Vec<_>)> = Vec::new();
@@ -198,13 +198,10 @@ impl Writer<'_> {
         }
         let mut items = Vec::new();
         for (rest, terms) in groups {
-            let mut plain = Item { coefficient: Number::ONE, factors: vec![] };
-            for (place, exponent) in rest.exponents() {
-                plain.multiply(self.factor(place), exponent);
-            }
+            let plain = self.plain(&rest);
             for (coefficient, factors) in self.shortest(&terms) {
                 let mut item = plain.clone();
-                item.coefficient = coefficient;
+                item.coefficient = item.coefficient * coefficient;
                 for (factor, exponent) in factors {
                     item.multiply(factor, exponent);
                 }

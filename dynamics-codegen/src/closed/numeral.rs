@@ -49,6 +49,21 @@ impl Numeral {
         Self { digits, exponent, pi, below }
     }
 
+    /// The parts of a number that stands in front of a product, where one over a power of two is written as such.
+    pub(super) fn in_front(value: Number) -> Self {
+        match value {
+            Number::Exact(exact) if exact.numerator() == 1 && matches!(exact.denominator(), 8 | 16 | 32) => {
+                Self {
+                    digits: "1".to_owned(),
+                    exponent: 0,
+                    pi: 0,
+                    below: Some((exact.denominator().to_string(), 0)),
+                }
+            }
+            value => Self::of(value),
+        }
+    }
+
     /// Whether it is one piece, and not a product or a fraction.
     pub(super) fn is_atom(&self) -> bool {
         self.below.is_none() && (self.exponent == 0 || self.pi == 0)

@@ -172,16 +172,10 @@ impl Ring {
 
     /// `1/a`: of one term a term, else a variable of its own. `None` of zero.
     pub(super) fn inverse(&mut self, a: &Polynomial) -> Result<Option<Polynomial>> {
-        let Some(&(first, leading)) = a.terms().last() else { return Ok(None) };
-        let (outside, inside) = match a.len() {
-            1 => (first, Polynomial::one()),
-            _ => {
-                let shared = self.content(a);
-                let shared_inverse = shared.inverse().ok_or(Swelling)?;
-                let by = Polynomial::term(shared_inverse, Number::ONE / leading);
-                (shared, self.product(a, &by)?)
-            }
-        };
+        if a.is_zero() {
+            return Ok(None);
+        }
+        let (leading, outside, inside) = self.parts(a).ok_or(Swelling)?;
         let mut inverse = Polynomial::term(Monomial::ONE, Number::ONE / leading);
         for (place, exponent) in outside.exponents() {
             // One over a sine is a sine over its square.
@@ -196,11 +190,24 @@ impl Ring {
             };
             inverse = self.product(&inverse, &factor)?;
         }
-        if inside.len() > 1 {
+        if let Some(inside) = inside {
             let place = self.variable(Variable::Inverse(inside))?;
             inverse = self.product(&inverse, &Self::polynomial(place))?;
         }
         Ok(Some(inverse))
+    }
+
+    /// A number, powers that all terms have in common, and what is left of several terms: a polynomial whose largest
+    /// monomial has the coefficient one. `None` of zero, and where exponents are out of range.
+    pub(super) fn parts(&self, a: &Polynomial) -> Option<(Number, Monomial, Option<Polynomial>)> {
+        let &(first, leading) = a.terms().last()?;
+        if a.len() == 1 {
+            return Some((leading, first, None));
+        }
+        let shared = self.content(a);
+        let by = shared.inverse()?;
+        let terms = a.terms().iter().map(|(monomial, k)| Some((monomial.times(&by)?, *k / leading)));
+        Some((leading, shared, Some(Polynomial::of_terms(terms.collect::<Option<_>>()?))))
     }
 
     /// The powers that all terms have in common, of variables whose squares are their own.

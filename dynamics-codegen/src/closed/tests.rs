@@ -114,9 +114,40 @@ fn forms_are_written_as_people_write_them() {
             "\\frac{m_1}{24} \\left(l - r_1\\right)",
         ),
         (
-            Form::product([Form::number(Number::ratio(1, 2)), m1.clone(), rate.power(2)]),
+            Form::product([Form::number(Number::ratio(1, 2)), m1.clone(), rate.clone().power(2)]),
             "½ m₁ θ\u{307}₁²",
             "\\frac{1}{2} \\, m_1 \\dot{\\theta}_1^{2}",
+        ),
+        // What is divided ends before the sine, or is in parentheses; a number before a bracket needs none.
+        (
+            Form::product([g.clone().over(l.clone()), a.clone().sin()]),
+            "(g/l) sin θ₁",
+            "\\frac{g}{l} \\sin \\theta_1",
+        ),
+        (
+            Form::product([g.clone().over(l.clone()), sum.clone()]),
+            "(g/l) (θ₁ + θ₂)",
+            "\\frac{g}{l} \\left(\\theta_1 + \\theta_2\\right)",
+        ),
+        (
+            Form::product([Form::integer(2), a.clone().cos().power(2)]).over(l.clone()),
+            "(2 cos²θ₁)/l",
+            "\\frac{2 \\, \\cos^{2} \\theta_1}{l}",
+        ),
+        (
+            Form::product([m1.clone(), rate.clone().power(2)]).over(l.clone().power(2)),
+            "m₁ θ\u{307}₁²/l²",
+            "\\frac{m_1 \\dot{\\theta}_1^{2}}{l^{2}}",
+        ),
+        (
+            Form::product([l.clone(), b.clone()]).over(Form::number(Number::integer(2) * Number::PI)),
+            "l θ₂/(2π)",
+            "\\frac{l \\theta_2}{2\\pi}",
+        ),
+        (
+            Form::product([Form::number(Number::ratio(1, 16)), m1.clone(), rate.clone()]),
+            "1/16 m₁ θ\u{307}₁",
+            "\\frac{1}{16} \\, m_1 \\dot{\\theta}_1",
         ),
         (
             Form::product([g.clone().negative(), sum.clone().cos(), load]),

@@ -1,7 +1,8 @@
 //! Forms as text: `m₂ r₁² cos²θ₂`, on one line, with spaces for products.
 //!
-//! A space multiplies, and a stroke divides all that stands before it in the product by the one thing after it:
-//! `m l²/3 (a + b)` is m l² over three, times a sum.
+//! A space multiplies, and a stroke divides all that stands before it in the product by the one thing after it. So that
+//! nobody has to know that, it ends a product, and is in parentheses where it does not, `(g/l) sin θ`; but for numbers
+//! before a bracket, `m/24 (a + b)`. What ends with the argument of a function is in parentheses above it, `(sin θ)/l`.
 
 use super::form::signed;
 use super::numeral::Numeral;
@@ -20,8 +21,8 @@ pub(super) enum Bond {
 }
 
 /// Fractions that are letters.
-pub(super) const FRACTIONS: [(char, i64, i64); 5] =
-    [('½', 1, 2), ('⅓', 1, 3), ('⅔', 2, 3), ('¼', 1, 4), ('¾', 3, 4)];
+pub(super) const FRACTIONS: [(char, i64, i64); 7] =
+    [('½', 1, 2), ('⅓', 1, 3), ('⅔', 2, 3), ('¼', 1, 4), ('¾', 3, 4), ('⅙', 1, 6), ('⅛', 1, 8)];
 
 pub(super) const RAISED: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
 
@@ -63,10 +64,7 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
         return;
     }
     match form {
-        Form::Number(value) => match fraction_letter(*value) {
-            Some(letter) => text.push(letter),
-            None => number(&Numeral::of(*value), text),
-        },
+        Form::Number(value) => number(&Numeral::of(*value), *value, text),
         Form::Symbol(symbol) => text.push_str(notation.unicode(*symbol)),
         Form::Negative(inner) => {
             text.push('−');
@@ -83,14 +81,21 @@ fn write(form: &Form, least: Bond, notation: &Notation, text: &mut String) {
                 if k > 0 {
                     text.push(' ');
                 }
-                write(factor, if k == 0 { Bond::Product } else { Bond::Factor }, notation, text);
+                match factor {
+                    Form::Number(value) => number(&Numeral::in_front(*value), *value, text),
+                    Form::Quotient(_, below) if k == 0 && is_plain(below, &factors[1]) => {
+                        write(factor, Bond::Product, notation, text);
+                    }
+                    factor => write(factor, Bond::Factor, notation, text),
+                }
             }
         }
         Form::Quotient(above, below) => {
-            write(above, Bond::Product, notation, text);
+            let least = if ends_with_function(above) { Bond::Base } else { Bond::Product };
+            write(above, least, notation, text);
             text.push('/');
-            let least =
-                if matches!(**below, Form::Sin(_) | Form::Cos(_)) { Bond::Base } else { Bond::Factor };
+            let is_one_piece = !matches!(**below, Form::Sin(_) | Form::Cos(_) | Form::Number(_));
+            let least = if is_one_piece { Bond::Factor } else { Bond::Base };
             write(below, least, notation, text);
         }
         Form::Power(base, n) => match &**base {
@@ -148,7 +153,23 @@ fn raised(n: u32, text: &mut String) {
     text.extend(n.to_string().bytes().map(|digit| RAISED[usize::from(digit - b'0')]));
 }
 
-fn number(numeral: &Numeral, text: &mut String) {
+/// Whether a quotient by this is read as one where it stands before that: numbers below, and a bracket.
+fn is_plain(below: &Form, next: &Form) -> bool {
+    matches!((below, next), (Form::Number(_), Form::Sum(_)))
+}
+
+fn ends_with_function(form: &Form) -> bool {
+    match form {
+        Form::Product(factors) => factors.last().is_some_and(Form::is_function),
+        form => form.is_function(),
+    }
+}
+
+fn number(numeral: &Numeral, value: Number, text: &mut String) {
+    if let Some(letter) = fraction_letter(value) {
+        text.push(letter);
+        return;
+    }
     part(&numeral.digits, numeral.exponent, numeral.pi, text);
     if let Some((digits, pi)) = &numeral.below {
         text.push('/');

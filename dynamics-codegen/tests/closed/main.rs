@@ -6,4 +6,5 @@ mod letters;
 mod proof;
 mod properties;
 mod robots;
+mod textbook;
 mod written;

@@ -10,7 +10,7 @@ use dynamics_codegen::model;
 use dynamics_codegen::symbolic::{Evaluator, Graph, SymbolId};
 
 use super::proof::spec_of;
-use super::robots;
+use super::{robots, textbook};
 
 /// The struct of a robot, as a user writes it.
 fn source(robot: &str) -> &'static str {
@@ -23,7 +23,7 @@ fn forms(source: &str) -> Option<ClosedForms> {
     let mut diags = Diagnostics::new();
     let graph = Graph::new();
     let model = model::build(&spec, &graph, &mut diags);
-    diags.check().unwrap();
+    diags.check().unwrap_or_else(|mistakes| panic!("{source}: {mistakes:?}"));
     closed_forms(&model.unwrap(), &graph).ok()
 }
 
@@ -137,10 +137,21 @@ fn snapshots() {
     insta::assert_snapshot!("stanford_arm", text(&forms(source("stanford_arm")).unwrap()));
 }
 
+/// What stands on slides.
+#[test]
+fn systems_of_textbooks() {
+    let mut all = String::new();
+    for (name, source) in textbook::SYSTEMS {
+        let forms = forms(source).unwrap();
+        all += &format!("{name}\n\n{}\n\n", text(&forms));
+    }
+    insta::assert_snapshot!("systems_of_textbooks", all);
+}
+
 /// What is printed of every robot is read back.
 #[test]
 fn all_of_it_is_read_back() {
-    for (name, source) in robots::ROBOTS {
+    for (name, source) in robots::ROBOTS.iter().chain(textbook::SYSTEMS) {
         let Some(forms) = forms(source) else { continue };
         let notation = &forms.notation;
         for form in all_forms(&forms) {
@@ -207,7 +218,7 @@ const SIX_DIGITS: f64 = 2e-5;
 #[test]
 fn closed_forms_have_the_values_of_the_plain_recursion() {
     let mut written = 0;
-    for (name, source) in robots::ROBOTS {
+    for (name, source) in robots::ROBOTS.iter().chain(textbook::SYSTEMS) {
         let spec = spec_of(source);
         let mut diags = Diagnostics::new();
         let graph = Graph::new();
