@@ -8,10 +8,11 @@ use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::model;
 use dynamics_codegen::spec::RobotSpec;
-use dynamics_codegen::symbolic::{Graph, Number, SymbolId};
+use dynamics_codegen::symbolic::{Graph, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
 
 use super::Subject;
+use crate::digits::{DIGITS, short};
 use crate::failure::Failure;
 
 /// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
@@ -20,8 +21,6 @@ const LARGEST: usize = 12;
 const LONGEST: usize = 400_000;
 /// Matrices of more letters in a row are written entry by entry.
 const WIDEST: usize = 100;
-/// Numbers of a file have so many digits in equations: of 1/30 nobody reads eighteen.
-const DIGITS: usize = 6;
 
 pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
     let section = Section::new("equations", "Equations of motion").text(&told(subject));
@@ -89,33 +88,6 @@ fn rounded(forms: ClosedForms) -> ClosedForms {
         potential_energy: short(&forms.potential_energy),
         lagrangian: short(&forms.lagrangian),
         notation: forms.notation,
-    }
-}
-
-/// The form with its numbers rounded; small fractions stay as they are.
-fn short(form: &Form) -> Form {
-    let all = |parts: &[Form]| parts.iter().map(short).collect();
-    let one = |part: &Form| Box::new(short(part));
-    match form {
-        Form::Number(value) => Form::Number(short_number(*value)),
-        Form::Symbol(symbol) => Form::Symbol(*symbol),
-        Form::Negative(inner) => Form::Negative(one(inner)),
-        Form::Sum(terms) => Form::Sum(all(terms)),
-        Form::Product(factors) => Form::Product(all(factors)),
-        Form::Quotient(above, below) => Form::Quotient(one(above), one(below)),
-        Form::Power(base, exponent) => Form::Power(one(base), *exponent),
-        Form::Sin(inner) => Form::Sin(one(inner)),
-        Form::Cos(inner) => Form::Cos(one(inner)),
-        Form::Root(inner) => Form::Root(one(inner)),
-    }
-}
-
-fn short_number(value: Number) -> Number {
-    let is_short = value.exact_text().chars().filter(char::is_ascii_digit).count() <= DIGITS;
-    let rounded = Number::parse_decimal(&format!("{:.*e}", DIGITS - 1, value.to_f64()));
-    match rounded {
-        Some(rounded) if !is_short => rounded,
-        _ => value,
     }
 }
 
