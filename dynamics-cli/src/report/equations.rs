@@ -29,7 +29,8 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
         return Ok(section.text(&too_large(subject)));
     }
     let Some(forms) = forms(subject)? else { return Ok(section.text(&too_large(subject))) };
-    let equations = written(&rounded(forms));
+    let is_flat = subject.robot.tree.is_one_dof();
+    let equations = written(&rounded(forms), is_flat);
     if equations.iter().map(|equation| equation.mathml.len()).sum::<usize>() > LONGEST {
         return Ok(section.text(&too_large(subject)));
     }
@@ -67,13 +68,11 @@ fn told(subject: &Subject<'_, '_>) -> String {
         true => [" + passive", ", and passive are the forces of dampers, friction and springs"],
         false => ["", ""],
     };
-    let twists = match tree.quaternions().next() {
-        Some(_) => "; of ball and free joints v is the twist of the body in its own axes",
-        None => "",
+    let rates = match tree.quaternions().next() {
+        Some(_) => "v = q̇, but for ball and free joints, whose v is the twist of the body in its own axes,",
+        None => "v = q̇",
     };
-    format!(
-        "The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where v = q̇ and a = v̇{forces}{twists}."
-    )
+    format!("The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where {rates} and a = v̇{forces}.")
 }
 
 /// With numbers that people can read.
@@ -135,8 +134,14 @@ fn symbols(subject: &Subject<'_, '_>) -> Table {
 }
 
 /// All of them, the shortest definitions first.
-fn written(forms: &ClosedForms) -> Vec<Equation> {
+fn written(forms: &ClosedForms, is_flat: bool) -> Vec<Equation> {
     let ClosedForms { notation, definitions, .. } = forms;
+    let potential = match is_flat {
+        true => "Potential forces, G = ∂V/∂q",
+        false => {
+            "Potential forces: G_i is how fast V grows while the speed v_i is one and every other is zero"
+        }
+    };
     let mut equations = vec![];
     if !definitions.is_empty() {
         equations.push(of_definitions(definitions, notation));
@@ -144,7 +149,7 @@ fn written(forms: &ClosedForms) -> Vec<Equation> {
     equations.extend([
         of_matrix("Mass matrix", "M(q)", &forms.mass_matrix, notation),
         of_matrix("Coriolis matrix, with Ṁ = C + Cᵀ", "C(q,v)", &forms.coriolis_matrix, notation),
-        of_matrix("Gravity forces, G = ∂V/∂q", "G(q)", &forms.gravity_forces, notation),
+        of_matrix(potential, "G(q)", &forms.gravity_forces, notation),
         of_form("Kinetic energy", "T", &forms.kinetic_energy, notation),
         of_form("Potential energy", "V", &forms.potential_energy, notation),
         of_form("Lagrangian, L = T − V", "L", &forms.lagrangian, notation),
