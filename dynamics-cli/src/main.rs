@@ -8,6 +8,7 @@ mod attributes;
 mod check;
 mod coordinates;
 mod count;
+mod digits;
 mod eval;
 mod explain;
 mod failure;

@@ -2,6 +2,8 @@
 
 use dynamics_codegen::closed::{Form, Matrix};
 
+use crate::digits::short;
+
 /// A part of a document, on lines of its own.
 pub(super) enum Block {
     Title(Vec<Piece>),
@@ -10,6 +12,28 @@ pub(super) enum Block {
     List(Vec<Vec<Piece>>),
     /// Sides with equality signs between them.
     Equation(Vec<Side>),
+}
+
+impl Block {
+    /// What is written in it of a robot's own.
+    pub(super) fn forms(&self) -> Vec<&Form> {
+        match self {
+            Self::Title(pieces) | Self::Text(pieces) => pieces.iter().flat_map(Piece::forms).collect(),
+            Self::Heading(_) => vec![],
+            Self::List(items) => items.iter().flatten().flat_map(Piece::forms).collect(),
+            Self::Equation(sides) => sides.iter().flat_map(Side::forms).collect(),
+        }
+    }
+
+    /// Rounds its numbers.
+    pub(super) fn shorten(&mut self) {
+        match self {
+            Self::Title(pieces) | Self::Text(pieces) => pieces.iter_mut().for_each(Piece::shorten),
+            Self::Heading(_) => {}
+            Self::List(items) => items.iter_mut().flatten().for_each(Piece::shorten),
+            Self::Equation(sides) => sides.iter_mut().for_each(Side::shorten),
+        }
+    }
 }
 
 /// A part of a line.
@@ -22,6 +46,24 @@ pub(super) enum Piece {
     Form(Form),
     /// A vector, on the line.
     Vector(Matrix),
+}
+
+impl Piece {
+    fn forms(&self) -> Vec<&Form> {
+        match self {
+            Self::Form(form) => vec![form],
+            Self::Vector(vector) => vector.entries().map(|(_, _, form)| form).collect(),
+            Self::Words(_) | Self::Name(_) | Self::Math(_) => vec![],
+        }
+    }
+
+    fn shorten(&mut self) {
+        match self {
+            Self::Form(form) => *form = short(form),
+            Self::Vector(vector) => *vector = vector.map(short),
+            Self::Words(_) | Self::Name(_) | Self::Math(_) => {}
+        }
+    }
 }
 
 /// Mathematics that is the same for every robot.
@@ -37,6 +79,24 @@ pub(super) enum Side {
     Math(Math),
     Form(Form),
     Matrix(Matrix),
+}
+
+impl Side {
+    fn forms(&self) -> Vec<&Form> {
+        match self {
+            Self::Math(_) => vec![],
+            Self::Form(form) => vec![form],
+            Self::Matrix(matrix) => matrix.entries().map(|(_, _, form)| form).collect(),
+        }
+    }
+
+    fn shorten(&mut self) {
+        match self {
+            Self::Math(_) => {}
+            Self::Form(form) => *form = short(form),
+            Self::Matrix(matrix) => *matrix = matrix.map(short),
+        }
+    }
 }
 
 /// Mathematics in both notations.

@@ -7,12 +7,19 @@ use super::Subject;
 pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let robot = subject.robot;
     let fall = robot.tree.gravity.0.map(|x| number(x, 6)).join(", ");
+    let potential = match robot.tree.is_one_dof() {
+        true => "∂V/∂q of gravity and of terms of V, on the left-hand side",
+        false => {
+            "of gravity and of terms of V, on the left-hand side: how fast V grows while one speed is one and every other is \
+             zero; where speeds are rates it is ∂V/∂q"
+        }
+    };
     let mut facts = [
         ["units", "m, kg, s, rad, N, J"],
         ["signs", "a positive τ pushes its joint in the direction in which its coordinate grows"],
         ["equation", "M·a + C·v + G + passive = τ"],
         ["C", "of Levi-Civita: Ṁ = C + Cᵀ; of Christoffel's symbols where joints have one coordinate each"],
-        ["G", "∂V/∂q, on the left-hand side"],
+        ["G", potential],
         ["rotations", "quaternions i, j, k, w; roll, pitch and yaw about fixed x, y and z"],
         ["twists", "linear before angular"],
         ["inertias", "about the centre of mass, in the body's axes; Ixy is the entry of the tensor, −∫xy dm"],

@@ -8,10 +8,11 @@ use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::model;
 use dynamics_codegen::spec::RobotSpec;
-use dynamics_codegen::symbolic::{Graph, Number, SymbolId};
+use dynamics_codegen::symbolic::{Graph, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
 
 use super::Subject;
+use crate::digits::{DIGITS, short};
 use crate::failure::Failure;
 
 /// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
@@ -20,8 +21,6 @@ const LARGEST: usize = 12;
 const LONGEST: usize = 400_000;
 /// Matrices of more letters in a row are written entry by entry.
 const WIDEST: usize = 100;
-/// Numbers of a file have so many digits in equations: of 1/30 nobody reads eighteen.
-const DIGITS: usize = 6;
 
 pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
     let section = Section::new("equations", "Equations of motion").text(&told(subject));
@@ -30,7 +29,8 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
         return Ok(section.text(&too_large(subject)));
     }
     let Some(forms) = forms(subject)? else { return Ok(section.text(&too_large(subject))) };
-    let equations = written(&rounded(forms));
+    let is_flat = subject.robot.tree.is_one_dof();
+    let equations = written(&rounded(forms), is_flat);
     if equations.iter().map(|equation| equation.mathml.len()).sum::<usize>() > LONGEST {
         return Ok(section.text(&too_large(subject)));
     }
@@ -68,13 +68,11 @@ fn told(subject: &Subject<'_, '_>) -> String {
         true => [" + passive", ", and passive are the forces of dampers, friction and springs"],
         false => ["", ""],
     };
-    let twists = match tree.quaternions().next() {
-        Some(_) => "; of ball and free joints v is the twist of the body in its own axes",
-        None => "",
+    let rates = match tree.quaternions().next() {
+        Some(_) => "v = q̇, but for ball and free joints, whose v is the twist of the body in its own axes,",
+        None => "v = q̇",
     };
-    format!(
-        "The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where v = q̇ and a = v̇{forces}{twists}."
-    )
+    format!("The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where {rates} and a = v̇{forces}.")
 }
 
 /// With numbers that people can read.
@@ -89,33 +87,6 @@ fn rounded(forms: ClosedForms) -> ClosedForms {
         potential_energy: short(&forms.potential_energy),
         lagrangian: short(&forms.lagrangian),
         notation: forms.notation,
-    }
-}
-
-/// The form with its numbers rounded; small fractions stay as they are.
-fn short(form: &Form) -> Form {
-    let all = |parts: &[Form]| parts.iter().map(short).collect();
-    let one = |part: &Form| Box::new(short(part));
-    match form {
-        Form::Number(value) => Form::Number(short_number(*value)),
-        Form::Symbol(symbol) => Form::Symbol(*symbol),
-        Form::Negative(inner) => Form::Negative(one(inner)),
-        Form::Sum(terms) => Form::Sum(all(terms)),
-        Form::Product(factors) => Form::Product(all(factors)),
-        Form::Quotient(above, below) => Form::Quotient(one(above), one(below)),
-        Form::Power(base, exponent) => Form::Power(one(base), *exponent),
-        Form::Sin(inner) => Form::Sin(one(inner)),
-        Form::Cos(inner) => Form::Cos(one(inner)),
-        Form::Root(inner) => Form::Root(one(inner)),
-    }
-}
-
-fn short_number(value: Number) -> Number {
-    let is_short = value.exact_text().chars().filter(char::is_ascii_digit).count() <= DIGITS;
-    let rounded = Number::parse_decimal(&format!("{:.*e}", DIGITS - 1, value.to_f64()));
-    match rounded {
-        Some(rounded) if !is_short => rounded,
-        _ => value,
     }
 }
 
@@ -163,8 +134,14 @@ fn symbols(subject: &Subject<'_, '_>) -> Table {
 }
 
 /// All of them, the shortest definitions first.
-fn written(forms: &ClosedForms) -> Vec<Equation> {
+fn written(forms: &ClosedForms, is_flat: bool) -> Vec<Equation> {
     let ClosedForms { notation, definitions, .. } = forms;
+    let potential = match is_flat {
+        true => "Potential forces, G = ∂V/∂q",
+        false => {
+            "Potential forces: G_i is how fast V grows while the speed v_i is one and every other is zero"
+        }
+    };
     let mut equations = vec![];
     if !definitions.is_empty() {
         equations.push(of_definitions(definitions, notation));
@@ -172,7 +149,7 @@ fn written(forms: &ClosedForms) -> Vec<Equation> {
     equations.extend([
         of_matrix("Mass matrix", "M(q)", &forms.mass_matrix, notation),
         of_matrix("Coriolis matrix, with Ṁ = C + Cᵀ", "C(q,v)", &forms.coriolis_matrix, notation),
-        of_matrix("Gravity forces, G = ∂V/∂q", "G(q)", &forms.gravity_forces, notation),
+        of_matrix(potential, "G(q)", &forms.gravity_forces, notation),
         of_form("Kinetic energy", "T", &forms.kinetic_energy, notation),
         of_form("Potential energy", "V", &forms.potential_energy, notation),
         of_form("Lagrangian, L = T − V", "L", &forms.lagrangian, notation),

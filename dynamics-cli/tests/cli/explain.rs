@@ -34,7 +34,64 @@ fn a_pendulum_in_markdown_and_latex() {
 #[test]
 fn a_field_may_be_a_number() {
     let text = dynamics_on(PENDULUM.as_bytes(), &["explain", "-", "--set", "l = 50cm, c = 0"]).ok();
-    assert!(text.contains("V = −4.905 m cos θ") && !text.contains("Dampers"), "{text}");
+    assert!(text.contains("V₁ = −4.905 m cos θ") && !text.contains("dampers"), "{text}");
+}
+
+/// The numbers of sections, in order.
+fn sections(text: &str) -> Vec<usize> {
+    let number = |line: &str| line.split_once(". ").and_then(|(number, _)| number.parse().ok());
+    let lines: Vec<&str> = text.lines().collect();
+    lines.windows(2).filter(|pair| pair[1].starts_with('─')).filter_map(|pair| number(pair[0])).collect()
+}
+
+/// Of what a robot has not, nothing is said; what it has is called by its name.
+#[test]
+fn sentences_fit_the_robot() {
+    let of = |text: &str| dynamics_on(text.as_bytes(), &["explain", "-"]).ok();
+    let bead = of("#[derive(Dynamics)] #[coordinate(theta: angle)] #[kinetic(m / 2 * r^2 * dot(theta)^2)]
+        #[potential(-m * g * r * cos(theta) - m / 2 * r^2 * w^2 * sin(theta)^2)]
+        struct Bead { m: f64, r: f64, g: f64, w: f64 }");
+    assert_eq!(sections(&bead), (1..=8).collect::<Vec<_>>());
+    assert!(bead.contains("`theta`: an angle, θ.") && bead.contains("M⁻¹·(u − G)"), "{bead}");
+    for absent in ["falls", "gravity", "bodies", "Jacobian", "twist", "C·q̇", "rounded", "P ="] {
+        assert!(!bead.contains(absent), "{absent}: {bead}");
+    }
+    let planar = of("#[derive(Dynamics)] #[joint(a: planar(z), world -> plate, actuated = off)]
+        #[body(plate, mass = m, inertia = diag(J, J, J))] #[dynamics(gravity = [0, 0, 0])] struct Planar { m: f64, J: f64 }");
+    let joint =
+        "`a`: `plate` slides on the world along (1, 0, 0), by x, then along (0, 1, 0), by y, then turns";
+    assert!(planar.replace("\n    ", " ").contains(joint), "{planar}");
+    assert!(planar.contains("There is no gravity.") && planar.contains("    d/dt q̇ = 0\n"), "{planar}");
+    let sprung = of("#[derive(Dynamics)] #[joint(x: prismatic(x), world -> cart, stiffness = k, rest = 1/3000000)]
+        #[body(cart, solid = point(m))] #[coordinate(y: length)] #[kinetic(m / 2 * dot(y)^2)] #[potential(k / 2 * (x - y)^2)]
+        #[dynamics(gravity = [0, 0, -g])] struct Sprung { m: f64, k: f64, g: f64 }");
+    for present in
+        ["Gravity and other potentials", "springs act by", "τ = Υ + P", "`y`: a length, y.", "rounded"]
+    {
+        assert!(sprung.contains(present), "{present}: {sprung}");
+    }
+    // One name, one meaning.
+    assert_eq!(sprung.matches("Υ₁ = ").count(), 1, "{sprung}");
+    let ball = of("#[derive(Dynamics)] #[joint(s: ball, world -> b)]
+        #[body(b, mass = m, com = [0, 0, -l], inertia = diag(A, A, C))] struct Ball { m: f64, l: f64, A: f64, C: f64 }");
+    for present in ["how fast V grows", "small rotation vector δr", "½ q_w ω_x", "Koszul"] {
+        assert!(ball.contains(present), "{present}: {ball}");
+    }
+    assert!(!ball.contains("∂V/∂q"), "{ball}");
+}
+
+/// Why there is no linear model is said of the robot that has none.
+#[test]
+fn the_reason_without_a_linear_model_is_the_robots() {
+    let top = "#[derive(Dynamics)] #[joint(phi: revolute(z), world -> a)] #[body(a)] #[joint(theta: revolute(x), a -> b)] #[body(b)]
+        #[joint(psi: revolute(z), b -> c)] #[body(c, mass = 1, com = [0, 0, 0.3], inertia = diag(0.1, 0.1, 0.05))] struct Top;";
+    let text = dynamics_on(top.as_bytes(), &["explain", "-"]).ok();
+    assert!(text.contains("M is singular there") && !text.contains("no derivative"), "{text}");
+    let spring = "#[derive(Dynamics)] #[joint(theta: revolute(y), world -> arm)] #[body(arm)]
+        #[joint(r: prismatic(-z), arm -> bob)] #[body(bob, solid = point(m), com = [0, 0.1, 0])]
+        #[potential(k / 2 * (sqrt(r * r) - l)^2)] struct OnASpring { m: f64, k: f64, l: f64 }";
+    let text = dynamics_on(spring.as_bytes(), &["explain", "-"]).ok();
+    assert!(text.contains("no derivative") && !text.contains("is singular"), "{text}");
 }
 
 /// Of every robot there is a text that ends, in every format. LaTeX needs no letters that it has not.

@@ -162,7 +162,7 @@ fn the_structure_of_a_cart_pole_is_the_textbooks() {
     for title in [
         "Mass matrix",
         "Coriolis matrix",
-        "Gravity forces",
+        "Potential forces",
         "Kinetic energy",
         "Potential energy",
         "Lagrangian",

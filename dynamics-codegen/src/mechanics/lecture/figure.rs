@@ -42,6 +42,7 @@ pub(super) fn figure<'g>(
             .and_then(|parent| model.links[parent].body)
             .map(|body| tree.frames[body].name.clone()),
         is_on_world: tree.links[k].parent.is_none(),
+        is_bare: info.body.is_none() && tree.links.iter().all(|link| link.parent != Some(k)),
         motion: tree.links[k].motion,
         axis: vector(7 * k),
         point: vector(7 * k + 3),

@@ -21,11 +21,11 @@ pub(super) fn linear<'g>(
     let unit = |k: usize| (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect::<Vec<_>>();
 
     if !tree.terms.all().all(|term| plain::is_smooth(term, tree, &q)) {
-        return Err(NoLinear::Undefined);
+        return Err(NoLinear::NotSmooth);
     }
     let M = plain::mass_matrix(tree, &q);
     if (0..n).any(|k| M[k][k].is_zero()) || is_singular(model, graph, &M) {
-        return Err(NoLinear::Undefined);
+        return Err(NoLinear::Singular);
     }
     let moved: Tree<Dual<Expr<'g>>> = tree.map(Dual::constant);
     // What holds against gravity and springs, and how it changes along each speed.

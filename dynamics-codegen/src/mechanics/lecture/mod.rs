@@ -58,6 +58,8 @@ pub struct Joint {
     pub parent: Option<String>,
     /// Whether the world carries it.
     pub is_on_world: bool,
+    /// Whether it carries nothing: a coordinate that terms of the energies are written in.
+    pub is_bare: bool,
     /// How it moves.
     pub motion: Motion,
     /// Its axis in the world, 3×1.
@@ -77,6 +79,8 @@ pub struct Joint {
 pub struct Body {
     /// Its name; it stands for all that is welded to it.
     pub name: String,
+    /// What is welded to it.
+    pub welded: Vec<String>,
     /// Mass, kg.
     pub mass: Form,
     /// `𝓘`, 3×3, about the origin of its frame.
@@ -103,8 +107,8 @@ pub struct Body {
 /// From the sum of the energies to the forces.
 #[derive(Clone, Debug)]
 pub struct Equations {
-    /// The inertias of rotors, which turn with no body, on the diagonal of M; none without rotors.
-    pub rotors: Option<Matrix>,
+    /// What rotors add, which turn with no body; none without rotors.
+    pub rotors: Option<Rotors>,
     /// Terms of one's own in the energies; none if there are none.
     pub terms: Option<Terms>,
     /// What the mass that stands still adds to V.
@@ -127,8 +131,19 @@ pub struct Equations {
     pub rows: Option<Vec<Row>>,
     /// The forces of dampers, friction and springs on the left-hand side, nothing where nothing acts.
     pub passive: Option<Matrix>,
-    /// `M·a + C·v + G`, and what acts passively.
+    /// `M·a + C·v + G`, and what acts passively: the forces of the motors.
     pub forces: Matrix,
+    /// `q̇(q,v)`, where speeds are no rates of coordinates.
+    pub rates: Option<Matrix>,
+}
+
+/// What rotors add to the energies: their inertia, as the joints feel it.
+#[derive(Clone, Debug)]
+pub struct Rotors {
+    /// To `T`.
+    pub kinetic_energy: Form,
+    /// To `M`, on its diagonal.
+    pub mass_matrix: Matrix,
 }
 
 /// What terms of one's own add to the energies.
@@ -171,8 +186,10 @@ pub struct Row {
 pub enum NoLinear {
     /// It, or what it is made from, is too long.
     Swelling,
-    /// Where all coordinates are zero M is singular, or a term of the energies has no derivative.
-    Undefined,
+    /// M is singular where all coordinates are zero.
+    Singular,
+    /// A term of the energies has no derivative there.
+    NotSmooth,
 }
 
 impl From<Swelling> for NoLinear {

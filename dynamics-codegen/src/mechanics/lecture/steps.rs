@@ -2,7 +2,7 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 #![allow(clippy::needless_range_loop, reason = "indices are those of the formulas")]
 
-use super::{Body, Christoffel, Equations, Row, Terms};
+use super::{Body, Christoffel, Equations, Rotors, Row, Terms};
 use crate::closed::{Canonical, Form, Matrix, Notation, Polynomial, Swelling};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
@@ -18,6 +18,7 @@ const TERMS: usize = 60;
 /// A body in expressions.
 struct Moving<'g> {
     name: String,
+    welded: Vec<String>,
     mass: Expr<'g>,
     /// Of its frame, in the world.
     pose: Pose<Expr<'g>>,
@@ -48,10 +49,16 @@ fn moving<'g>(model: &Model<'g>, graph: &'g Graph, q: &[Expr<'g>]) -> Vec<Moving
         let pose = plain::pose(tree, &frame, q);
         let seen = link.inertia.transformed(at_origin.inverse());
         let first = is_own.then_some(seen.first);
+        let others = tree
+            .frames
+            .iter()
+            .enumerate()
+            .filter(|(at, other)| other.link == Some(k) && Some(*at) != info.body);
         let moment = first.map_or_else(Vector3::zero, |first| pose.rotation * first);
         let potential = -(tree.gravity.dot(pose.translation) * mass + tree.gravity.dot(moment));
         Moving {
             name: own.map_or_else(|| info.joint.clone(), |own| own.name.clone()),
+            welded: others.map(|(_, other)| other.name.clone()).collect(),
             mass,
             pose,
             first,
@@ -78,6 +85,8 @@ pub(super) struct Steps<'m, 'g> {
     v: Vec<SymbolId>,
     a: Vec<SymbolId>,
     passive: Vec<Expr<'g>>,
+    /// Of the coordinates, where speeds are none.
+    rates: Vec<Expr<'g>>,
     at_rest: Expr<'g>,
     /// What terms of one's own add to T and V.
     terms: [Expr<'g>; 2],
@@ -100,10 +109,14 @@ impl<'m, 'g> Steps<'m, 'g> {
             [Argument::Q, Argument::V, Argument::A].map(|argument| inputs.vector(graph, argument));
         let bodies = moving(model, graph, &q);
         let passive = plain::passive::forces(&model.tree, &q, &v);
+        let rates = match model.tree.is_one_dof() {
+            true => vec![],
+            false => model.tree.configuration_rate(&q, &v),
+        };
         let at_rest = -model.tree.gravity.dot(model.tree.base.first);
         let terms = [plain::kinetic_terms(&model.tree, &q, &v), plain::potential_terms(&model.tree, &q)];
         let n = inputs.dof;
-        let mut exprs: Vec<Expr<'g>> = [&q[..], &v, &a, &passive, &[at_rest], &terms].concat();
+        let mut exprs: Vec<Expr<'g>> = [&q[..], &v, &a, &passive, &rates, &[at_rest], &terms].concat();
         for body in &bodies {
             exprs.extend([body.mass, body.potential]);
             exprs.extend(body.pose.translation.0.into_iter().chain(body.pose.rotation.0.concat()));
@@ -128,6 +141,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             v,
             a,
             passive,
+            rates,
             at_rest,
             terms,
             by_brackets,
@@ -183,6 +197,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         let [mass, kinetic_energy, potential_energy] = three(forms(&[mass, kinetic, potential])?);
         Ok(Body {
             name: body.name.clone(),
+            welded: body.welded.clone(),
             mass,
             inertia: square(forms(&inertia)?, 3),
             rotation: square(forms(&rotation)?, 3),
@@ -247,6 +262,7 @@ impl<'m, 'g> Steps<'m, 'g> {
             }
         };
         let passive = self.all(&self.passive.clone())?;
+        let rates = self.all(&self.rates.clone())?;
         let speeds = self.symbols(&self.v.clone())?;
         let accelerations = self.symbols(&self.a.clone())?;
         let mut forces = Vec::with_capacity(speeds.len());
@@ -283,7 +299,10 @@ impl<'m, 'g> Steps<'m, 'g> {
         Ok(Equations {
             rotors: match rotors {
                 None => None,
-                Some(rotors) => Some(symmetric(&rotors, &mut forms)?),
+                Some((energy, mass)) => Some(Rotors {
+                    kinetic_energy: forms(&[energy])?.swap_remove(0),
+                    mass_matrix: symmetric(&mass, &mut forms)?,
+                }),
             },
             terms: match terms {
                 None => None,
@@ -310,11 +329,12 @@ impl<'m, 'g> Steps<'m, 'g> {
                 false => Some(Matrix::vector(forms(&passive)?)),
             },
             forces: Matrix::vector(forms(&forces)?),
+            rates: if rates.is_empty() { None } else { Some(Matrix::vector(forms(&rates)?)) },
         })
     }
 
-    /// Adds the rotors to T and M, and returns what they add to M.
-    fn rotors(&mut self) -> Result<Option<Vec<Vec<Polynomial>>>, Swelling> {
+    /// Adds the rotors to T and M, and returns what they add to each.
+    fn rotors(&mut self) -> Result<Option<(Polynomial, Vec<Vec<Polynomial>>)>, Swelling> {
         let n = self.v.len();
         let unit = |k: usize| (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect::<Vec<_>>();
         let mut added = Vec::with_capacity(n);
@@ -325,15 +345,17 @@ impl<'m, 'g> Steps<'m, 'g> {
             return Ok(None);
         }
         let speeds = self.symbols(&self.v.clone())?;
+        let mut kinetic = Polynomial::zero();
         for i in 0..n {
             let momentum = self.canonical.dot(&added[i], &speeds)?;
-            let energy = self.canonical.product(&momentum, &speeds[i])?;
-            self.T = self.T.plus(Number::ratio(1, 2), &energy);
+            let twice = self.canonical.product(&momentum, &speeds[i])?;
+            kinetic = kinetic.plus(Number::ratio(1, 2), &twice);
             for j in 0..n {
                 self.M[i][j] = self.M[i][j].plus(Number::ONE, &added[i][j]);
             }
         }
-        Ok(Some(added))
+        self.T = self.T.plus(Number::ONE, &kinetic);
+        Ok(Some((kinetic, added)))
     }
 
     /// Adds terms of one's own to T, V and M, and returns what they are, and what they add to M.

@@ -1,0 +1,37 @@
+//! Numbers as people read them in equations: with no more digits than they care for.
+
+use dynamics_codegen::closed::Form;
+use dynamics_codegen::symbolic::Number;
+
+/// Numbers have so many digits in equations: of 1/30 nobody reads eighteen.
+pub(crate) const DIGITS: usize = 6;
+
+/// The form with its numbers rounded; small fractions stay as they are.
+pub(crate) fn short(form: &Form) -> Form {
+    let all = |parts: &[Form]| parts.iter().map(short).collect();
+    let one = |part: &Form| Box::new(short(part));
+    match form {
+        Form::Number(value) => Form::Number(short_number(*value)),
+        Form::Symbol(symbol) => Form::Symbol(*symbol),
+        Form::Negative(inner) => Form::Negative(one(inner)),
+        Form::Sum(terms) => Form::Sum(all(terms)),
+        Form::Product(factors) => Form::Product(all(factors)),
+        Form::Quotient(above, below) => Form::Quotient(one(above), one(below)),
+        Form::Power(base, exponent) => Form::Power(one(base), *exponent),
+        Form::Sin(inner) => Form::Sin(one(inner)),
+        Form::Cos(inner) => Form::Cos(one(inner)),
+        Form::Root(inner) => Form::Root(one(inner)),
+    }
+}
+
+fn has_few_digits(value: Number) -> bool {
+    value.exact_text().chars().filter(char::is_ascii_digit).count() <= DIGITS
+}
+
+fn short_number(value: Number) -> Number {
+    let rounded = Number::parse_decimal(&format!("{:.*e}", DIGITS - 1, value.to_f64()));
+    match rounded {
+        Some(rounded) if !has_few_digits(value) => rounded,
+        _ => value,
+    }
+}
