@@ -2,13 +2,13 @@
 
 use dynamics_codegen::diagnostics::Place;
 use dynamics_codegen::mechanics::equations::Method;
-use dynamics_codegen::mechanics::plain::{Cholesky, Oracle};
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
 use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
 use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
+use crate::absence::{Absence, rough_term};
 use crate::failure::Failure;
 use crate::input::{Input, shown};
 use crate::output::{print, table};
@@ -299,16 +299,19 @@ fn checks<'g>(args: &Args, robot: &Robot<'g>, graph: &'g Graph) -> String {
     let at = if is_flat { "at q = 0" } else { "at the neutral q" };
     let of = if robot.model.parameters.is_empty() { "" } else { ", for one choice of the fields" };
     let at = format!("{at}{of}");
-    let definite =
-        match Cholesky::of(&Oracle::new(&sample(robot, graph)).mass_matrix(&State::neutral(robot).q)) {
-            Some(_) => format!("M(q) is positive definite {at}"),
-            None => format!("M(q) is NOT positive definite {at}: forward dynamics has no meaning there"),
-        };
+    let (sample, neutral) = (sample(robot, graph), State::neutral(robot));
+    let definite = match Absence::of_inverse(robot, &sample, &neutral) {
+        None => format!("M(q) is positive definite {at}"),
+        Some(why) => format!("{at}, {}: forward dynamics has no value there", why.fact()),
+    };
+    let rough = rough_term(&robot.spec, &sample, &neutral, |term| term.kind != TermKind::Kinetic);
+    let rough =
+        rough.map_or(String::new(), |why| format!("  {at}, {}: its force has no value there\n", why.fact()));
     let methods = &robot.compiled.methods;
     let compared = methods.iter().filter(|method| matches!(method.plan, Plan::StraightLine { .. })).count();
     let all = methods.len();
     format!(
-        "  {inertias}\n  {definite}\n  {compared} of {all} methods were run against the plain recursion, and agree\n"
+        "  {inertias}\n  {definite}\n{rough}  {compared} of {all} methods were run against the plain recursion, and agree\n"
     )
 }
 

@@ -6,6 +6,7 @@ use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::symbolic::Graph;
 use serde_json::json;
 
+use crate::absence::{Absence, divides_by_mass};
 use crate::failure::{Failure, Problem};
 use crate::input::shown;
 use crate::output::print;
@@ -60,6 +61,9 @@ Output:
                              in the world's, and its velocity and acceleration in its own axes, linear first
 
 Matrices are lists of rows. In a state, a vector is a list of numbers, or an object of some by their names.
+
+What has no value at the state is null: Minv and a where M(q) is singular, as that of a top which stands upright. An error
+says why, and the exit status is 1; all else has its value.
 
 Examples:
   dynamics eval arm.urdf --state '{\"q\": [0.1, 0.2], \"v\": [1, 0]}'
@@ -133,19 +137,27 @@ fn keys() -> PossibleValuesParser {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
-    let outputs = selected(&args.only);
+    let mut outputs = selected(&args.only);
     let mut methods: Vec<Method> = outputs.iter().map(|output| output.method).collect();
     if !args.frames.is_empty() {
         methods.extend(Method::of_frame(0));
     }
     let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
+    // What nobody has asked for by its name is not missed.
+    outputs.retain(|output| {
+        robot.has(output.method)
+            || Absence::of_method(output.method) != Absence::Massless
+            || args.only.iter().any(|name| name == output.key)
+    });
     let state = state::read(&args.state, &args.input.file, &robot)?;
     let frames = frames(&args.frames, &robot)?;
+    let mut values = Values::at(&state, &robot);
     let text = {
         let _progress = Progress::of("evaluating");
-        evaluated(&robot, &state, &outputs, &frames)?
+        evaluated(&mut values, &outputs, &frames)
     };
-    print(&text)
+    print(&text)?;
+    values.all_there()
 }
 
 /// The outputs of `--only`; a regressor comes with its parameters.
@@ -184,38 +196,78 @@ fn frames(names: &[String], robot: &Robot<'_>) -> Result<Vec<usize>, Failure> {
     Ok(found)
 }
 
-fn evaluated(
-    robot: &Robot<'_>,
-    state: &State,
-    outputs: &[&Output],
-    frames: &[usize],
-) -> Result<String, Failure> {
+/// What is asked of a robot at a state, and what it has no value of.
+struct Values<'a, 'g> {
+    robot: &'a Robot<'g>,
+    state: &'a State,
+    /// Why M has no inverse there, if it has none.
+    of_inverse: Option<Absence>,
+    /// The outputs without a value, by reason.
+    absent: Vec<(Absence, Vec<String>)>,
+    /// What was asked last: two blocks of one method are next to each other.
+    last: Option<(Method, Vec<f64>)>,
+}
+
+impl<'a, 'g> Values<'a, 'g> {
+    fn at(state: &'a State, robot: &'a Robot<'g>) -> Self {
+        let of_inverse = Absence::of_inverse(robot, &robot.tree, state);
+        Self { robot, state, of_inverse, absent: vec![], last: None }
+    }
+
+    /// What a method returns, for an output of this name.
+    fn of(&mut self, method: Method, key: &str) -> Option<Vec<f64>> {
+        if let Some((_, last)) = self.last.as_ref().filter(|(last, _)| *last == method) {
+            return Some(last.clone());
+        }
+        // Rounding can make a large number of what is none.
+        let found = match self.of_inverse.clone().filter(|_| divides_by_mass(method)) {
+            Some(why) => Err(why),
+            None => self.robot.evaluate(method, self.state).map_err(|absent| absent.why),
+        };
+        let found = found.map_err(|why| self.is_absent(why, key)).ok()?;
+        self.last = Some((method, found.clone()));
+        Some(found)
+    }
+
+    fn is_absent(&mut self, why: Absence, key: &str) {
+        match self.absent.iter_mut().find(|(known, _)| *known == why) {
+            Some((_, outputs)) => outputs.push(key.to_owned()),
+            None => self.absent.push((why, vec![key.to_owned()])),
+        }
+    }
+
+    /// Fails if an output had no value, and says why.
+    fn all_there(self) -> Result<(), Failure> {
+        let problems: Vec<_> = self.absent.iter().map(|(why, outputs)| why.problem(outputs)).collect();
+        if problems.is_empty() { Ok(()) } else { Err(Failure::Wrong(problems)) }
+    }
+}
+
+fn evaluated(values: &mut Values<'_, '_>, outputs: &[&Output], frames: &[usize]) -> String {
+    let robot = values.robot;
     let names: Vec<&str> = robot.model.joints.iter().map(|joint| joint.name.as_str()).collect();
     let mut entries = vec![
         ("joints", json!(names).to_string()),
         ("coordinates", json!(robot.coordinates.q).to_string()),
         ("speeds", json!(robot.coordinates.v).to_string()),
     ];
-    let mut last: Option<(Method, Vec<f64>)> = None;
     for output in outputs {
-        // Two blocks of one method are next to each other.
-        let values = match last.take() {
-            Some((method, values)) if method == output.method => values,
-            _ => robot.evaluate(output.method, state)?,
-        };
+        let found = values.of(output.method, output.key);
         if let Form::Parameters(key) = output.form {
             entries.push((key, json!(parameters(robot, output.method)).to_string()));
         }
-        entries.push((output.key, written(robot, output, &values)));
-        last = Some((output.method, values));
+        entries.push((output.key, found.map_or(NOTHING.to_owned(), |found| written(robot, output, &found))));
     }
     if !frames.is_empty() {
-        let frames: Result<Vec<_>, _> = frames.iter().map(|&frame| of_frame(robot, state, frame)).collect();
-        entries.push(("frames", format!("{{\n{}\n  }}", frames?.join(",\n"))));
+        let frames: Vec<_> = frames.iter().map(|&frame| of_frame(values, frame)).collect();
+        entries.push(("frames", format!("{{\n{}\n  }}", frames.join(",\n"))));
     }
     let lines: Vec<String> = entries.iter().map(|(key, value)| format!("  \"{key}\": {value}")).collect();
-    Ok(format!("{{\n{}\n}}\n", lines.join(",\n")))
+    format!("{{\n{}\n}}\n", lines.join(",\n"))
 }
+
+/// What stands for an output without a value.
+const NOTHING: &str = "null";
 
 fn written(robot: &Robot<'_>, output: &Output, values: &[f64]) -> String {
     let n = robot.dof();
@@ -237,23 +289,24 @@ fn parameters<'r>(robot: &'r Robot<'_>, method: Method) -> &'r [String] {
 }
 
 /// A frame's entry: its name, and its kinematics.
-fn of_frame(robot: &Robot<'_>, state: &State, frame: usize) -> Result<String, Failure> {
-    let n = robot.dof();
-    let value = |method| robot.evaluate(method, state);
-    let pose = value(Method::Pose(frame))?;
-    let (rotation, translation) = pose.split_at(9);
-    let wide = |entries: Vec<f64>| matrix(&entries, n, "        ");
-    let entries = [
-        ("rotation", matrix(rotation, 3, "        ")),
-        ("translation", json!(translation).to_string()),
-        ("jacobian", wide(value(Method::Jacobian(frame))?)),
-        ("world_jacobian", wide(value(Method::WorldJacobian(frame))?)),
-        ("velocity", json!(value(Method::Velocity(frame))?).to_string()),
-        ("acceleration", json!(value(Method::Acceleration(frame))?).to_string()),
+fn of_frame(values: &mut Values<'_, '_>, frame: usize) -> String {
+    let (robot, n) = (values.robot, values.robot.dof());
+    let name = &robot.tree.frames[frame].name;
+    let mut entry = |key: &str, method, text: &dyn Fn(&[f64]) -> String| {
+        let found = values.of(method, &format!("{key} of {name}"));
+        format!("      \"{key}\": {}", found.map_or(NOTHING.to_owned(), |found| text(&found)))
+    };
+    let vector = |found: &[f64]| json!(found).to_string();
+    let wide = |found: &[f64]| matrix(found, n, "        ");
+    let lines = [
+        entry("rotation", Method::Pose(frame), &|pose| matrix(&pose[..9], 3, "        ")),
+        entry("translation", Method::Pose(frame), &|pose| vector(&pose[9..])),
+        entry("jacobian", Method::Jacobian(frame), &wide),
+        entry("world_jacobian", Method::WorldJacobian(frame), &wide),
+        entry("velocity", Method::Velocity(frame), &vector),
+        entry("acceleration", Method::Acceleration(frame), &vector),
     ];
-    let lines: Vec<String> = entries.iter().map(|(key, value)| format!("      \"{key}\": {value}")).collect();
-    let name = json!(robot.tree.frames[frame].name);
-    Ok(format!("    {name}: {{\n{}\n    }}", lines.join(",\n")))
+    format!("    {}: {{\n{}\n    }}", json!(name), lines.join(",\n"))
 }
 
 /// A matrix of `n` columns, one row a line, behind `left`.

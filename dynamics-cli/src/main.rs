@@ -3,6 +3,7 @@
 //! What it prints goes to standard output, and is the same for the same input; mistakes go to standard error. It exits
 //! with 1 if the input is wrong, and with 2 if the command line is.
 
+mod absence;
 mod assignment;
 mod attributes;
 mod check;

@@ -177,7 +177,7 @@ impl<'r, 'g> Mover<'r, 'g> {
             lost => {
                 let (title, time) = lost.err().unwrap_or((NOT_FINITE, now));
                 let cause = self.flow.robot.evaluate(Method::ForwardDynamics, &self.state).err();
-                Err((cause.unwrap_or_else(|| Problem::new(title).into()), time))
+                Err((cause.map_or_else(|| Problem::new(title).into(), Failure::from), time))
             }
         }
     }

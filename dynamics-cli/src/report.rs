@@ -114,11 +114,13 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
     let at = state::read(&args.state, &args.input.file, &robot)?;
     let start = swing::start(&robot, args.q.as_deref(), args.v.as_deref())?;
-    for (state, option) in [(&at, "--state"), (&start, "--q")] {
-        if robot.evaluate(Method::ForwardDynamics, state).is_err() {
+    for (state, what, option) in
+        [(&at, "where the robot stands", "--state"), (&start, "where its swing begins", "--q")]
+    {
+        if let Err(why) = robot.moves(state) {
             let problem =
-                Problem::new(format!("the robot does not move by its equations at q = {:?}", state.q));
-            return Err(problem.help(format!("choose another place by `{option}`")).into());
+                Problem::new(format!("{what}, at q = {:?}, it cannot move: {}", state.q, why.fact()));
+            return Err(problem.help(why.help(option)).into());
         }
     }
     let html = {

@@ -11,8 +11,9 @@ use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
 use proc_macro2::Span;
 
+use crate::absence::{Absence, Absent};
 use crate::coordinates::Coordinates;
-use crate::failure::{Failure, Problem};
+use crate::failure::Failure;
 use crate::fields::unless_known;
 use crate::input::Input;
 use crate::progress::Progress;
@@ -95,22 +96,25 @@ impl<'g> Robot<'g> {
     }
 
     /// What a method returns, all entries in order, by rows; finite numbers.
-    pub(crate) fn evaluate(&self, method: Method, state: &State) -> Result<Vec<f64>, Failure> {
-        let name = method.name();
-        if self.plan(method).is_none() {
-            let problem = Problem::new(format!("this robot has no `{name}`: it would be too long"));
-            return Err(problem.help("name the outputs that are needed by `--only`").into());
+    pub(crate) fn evaluate(&self, method: Method, state: &State) -> Result<Vec<f64>, Absent> {
+        if !self.has(method) {
+            return Err(Absent { method, why: Absence::of_method(method) });
         }
-        let values = self.compute(method, state).ok_or_else(|| {
-            let problem = Problem::new(format!("`{name}` has no value: M(q) is not positive definite"));
-            problem.help("correct the inertias, or choose another `q`")
-        })?;
-        if values.iter().any(|value| !value.is_finite()) {
-            let problem = Problem::new(format!("`{name}` is not finite at this state"));
-            return Err(problem.help("choose smaller numbers for the state").into());
+        match self.compute(method, state) {
+            // No negative zeros.
+            Some(values) if values.iter().all(|value| value.is_finite()) => {
+                Ok(values.into_iter().map(|value| value + 0.0).collect())
+            }
+            _ => Err(Absent { method, why: Absence::of(method, state, self) }),
         }
-        // No negative zeros.
-        Ok(values.into_iter().map(|value| value + 0.0).collect())
+    }
+
+    /// Fails where the robot has no acceleration, or rounding alone gives it one.
+    pub(crate) fn moves(&self, state: &State) -> Result<(), Absence> {
+        match Absence::of_inverse(self, &self.tree, state) {
+            Some(why) => Err(why),
+            None => self.evaluate(Method::ForwardDynamics, state).map(drop).map_err(|absent| absent.why),
+        }
     }
 
     fn compute(&self, method: Method, state: &State) -> Option<Vec<f64>> {
@@ -121,6 +125,11 @@ impl<'g> Robot<'g> {
             }
             Plan::Loops { .. } | Plan::Table { .. } => self.plain(method, state),
         }
+    }
+
+    /// Whether there is a program.
+    pub(crate) fn has(&self, method: Method) -> bool {
+        self.plan(method).is_some()
     }
 
     fn plan(&self, method: Method) -> Option<&Plan<'g>> {

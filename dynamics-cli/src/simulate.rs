@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::symbolic::Graph;
 
+use crate::absence::Absent;
 use crate::failure::{Failure, Problem};
 use crate::motion::{FixedStep, Mover};
 use crate::output::{failed, writer};
@@ -140,6 +141,11 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     state::override_by("q", &mut state.q, args.q.as_deref(), &robot.coordinates.q)?;
     state::override_by("v", &mut state.v, args.v.as_deref(), &robot.coordinates.v)?;
     state::check_quaternions(&robot, &state.q)?;
+    if let Err(why) = robot.moves(&state) {
+        let problem =
+            Problem::new(format!("the robot cannot move at its start, q = {:?}: {}", state.q, why.fact()));
+        return Err(problem.help(why.help("--q")).into());
+    }
     let mut recording = Recording::of(&args.picture, &args.input.file, &robot, clock.steps)?;
     let mut out: Box<dyn Write> = match (&args.output, args.picture.is_asked_for()) {
         (None, true) => Box::new(std::io::sink()),
@@ -158,19 +164,23 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         Integrator::Adaptive => Mover::adaptive(&robot, state, args.tolerance.unwrap_or(TOLERANCE))?,
     };
     let progress = Progress::of("simulating");
-    for k in 1..=clock.steps {
+    let mut advance = |k: u64| {
         let (before, now) = (clock.at(k - 1), clock.at(k));
         let lost_at = |(failure, time)| lost(failure, time, args.method);
         let lost = |failure| lost_at((failure, now));
         mover.advance([before, now], args.time).map_err(lost_at)?;
         if k % args.every == 0 || k == clock.steps {
-            write(&row(now, mover.state()).map_err(lost)?)?;
+            write(&row(now, mover.state()).map_err(|absent| lost(absent.into()))?)?;
         }
         recording.see(k, now, mover.state()).map_err(lost)?;
         progress.done(k as f64 / clock.steps as f64);
-    }
+        Ok(())
+    };
+    let done = (1..=clock.steps).try_for_each(&mut advance);
+    drop(progress);
+    // What was computed before anything went wrong is written, and drawn.
     out.flush().map_err(|error| failed(args.output.as_deref(), &error))?;
-    recording.write()
+    recording.write().and(done)
 }
 
 /// The times of the steps.
@@ -231,14 +241,14 @@ pub(crate) fn quoted(text: &str) -> String {
 }
 
 /// Kinetic, potential, elastic, and their sum, J.
-pub(crate) fn energies(robot: &Robot<'_>, state: &State) -> Result<[f64; 4], Failure> {
+pub(crate) fn energies(robot: &Robot<'_>, state: &State) -> Result<[f64; 4], Absent> {
     let energy = |method| robot.evaluate(method, state).map(|value| value[0]);
     let (kinetic, potential) = (energy(Method::KineticEnergy)?, energy(Method::PotentialEnergy)?);
     let elastic = energy(Method::ElasticEnergy)?;
     Ok([kinetic, potential, elastic, kinetic + potential + elastic])
 }
 
-fn row(robot: &Robot<'_>, time: f64, state: &State, start: f64) -> Result<String, Failure> {
+fn row(robot: &Robot<'_>, time: f64, state: &State, start: f64) -> Result<String, Absent> {
     let energies = energies(robot, state)?;
     let numbers = std::iter::once(&time).chain(&state.q).chain(&state.v).copied();
     let numbers = numbers.chain(energies).chain([energies[3] - start]);

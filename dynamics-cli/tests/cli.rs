@@ -1,6 +1,8 @@
 //! The binary, from outside: what it prints, writes and exits with.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
+#[path = "cli/absent.rs"]
+mod absent;
 #[path = "cli/check.rs"]
 mod check;
 #[path = "cli/eval.rs"]

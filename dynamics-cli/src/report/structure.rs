@@ -54,7 +54,7 @@ fn told(cells: &[Vec<Cell>]) -> String {
     let constant = count(|cell| matches!(cell, Cell::Constant(_)));
     let varying = all - zero - constant;
     format!(
-        "M(q) is symmetric and positive definite. Its {all} entries on and above the diagonal: {zero} always zero, \
+        "M(q) is symmetric, and positive definite where the robot stands. Its {all} entries on and above the diagonal: {zero} always zero, \
          {constant} constant, {varying} dependent on the configuration."
     )
 }

@@ -5,6 +5,7 @@ use dynamics_view::page::{Section, number};
 use dynamics_view::{Coordinate, Measure};
 
 use super::Subject;
+use crate::absence::Absent;
 use crate::failure::Failure;
 use crate::motion::{FixedStep, Mover};
 use crate::picture::charts::parts;
@@ -91,7 +92,7 @@ impl Swing {
         for k in 1..=clock.steps {
             let (before, now) = (clock.at(k - 1), clock.at(k));
             let moved = mover.advance([before, now], time).map_err(|(failure, _)| failure);
-            let seen = match moved.and_then(|()| moment(robot, now, mover.state())) {
+            let seen = match moved.and_then(|()| Ok(moment(robot, now, mover.state())?)) {
                 Ok(seen) => seen,
                 Err(Failure::Wrong(problems)) => {
                     let why = problems.into_iter().next().map_or(String::new(), |problem| problem.title);
@@ -181,7 +182,7 @@ impl Swing {
     }
 }
 
-fn moment(robot: &Robot<'_>, time: f64, state: &State) -> Result<Moment, Failure> {
+fn moment(robot: &Robot<'_>, time: f64, state: &State) -> Result<Moment, Absent> {
     let [kinetic, potential, elastic, _] = energies(robot, state)?;
     Ok(Moment { time, state: state.clone(), energy: Energy { kinetic, potential, elastic } })
 }

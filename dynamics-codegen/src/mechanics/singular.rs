@@ -1,14 +1,14 @@
-//! Motions that move no mass: a mass matrix that is singular in every configuration.
+//! Motions that move no mass: a mass matrix that is singular, at one configuration or in all.
 //!
-//! It is factored in doubles at a few states and the parameters' sample values. A robot whose joints cancel each
-//! other has a pivot that is nothing but rounding at all of them; one that is singular at some states only has not.
+//! It is factored in doubles. Where joints cancel each other a pivot is nothing but rounding. A robot has such a motion in
+//! every configuration if it has one at a few of them, with the parameters' sample values.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::columns::columns;
 use super::coupling::elimination_parents;
 use super::factor::Factor;
 use super::plain::Oracle;
-use crate::model::Model;
+use crate::model::{Model, Tree};
 use crate::symbolic::{Evaluator, Graph, SymbolId};
 
 /// A pivot below this part of its diagonal entry is what rounding left of zero.
@@ -27,11 +27,7 @@ pub fn idle_motion(model: &Model<'_>, graph: &Graph) -> Option<Vec<usize>> {
     let sample = |symbol: SymbolId| model.parameters[symbol.0 as usize].sample;
     let mut evaluator = Evaluator::new(graph, sample);
     let tree = model.tree.map(|expr| evaluator.value(expr));
-    let parents = elimination_parents(
-        &columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive))),
-        n,
-        &model.tree.coupled_by_terms(),
-    );
+    let parents = elimination(&tree);
     let motion_at = |state: usize| {
         // Irrational steps: no angle is like another, and none is a right one.
         let size = tree.coordinates();
@@ -44,13 +40,24 @@ pub fn idle_motion(model: &Model<'_>, graph: &Graph) -> Option<Vec<usize>> {
     (1..3).all(|state| motion_at(state).is_some()).then_some(first)
 }
 
-/// The joints of a motion with `M·v = 0`, if there is one.
+/// The speeds, in order, that can be together at `q` without moving any mass: M(q) is singular there.
+pub fn idle_motion_at(tree: &Tree<f64>, q: &[f64]) -> Option<Vec<usize>> {
+    idle_motion_of(&Oracle::new(tree).mass_matrix(q), &elimination(tree))
+}
+
+/// The speeds that each speed is eliminated into.
+fn elimination(tree: &Tree<f64>) -> Vec<Option<usize>> {
+    let columns = columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive)));
+    elimination_parents(&columns, tree.dof(), &tree.coupled_by_terms())
+}
+
+/// The speeds of a motion with `M·v = 0`, if there is one.
 fn idle_motion_of(M: &Vec<Vec<f64>>, parents: &[Option<usize>]) -> Option<Vec<usize>> {
     if !M.iter().flatten().all(|entry| entry.is_finite()) {
         return None;
     }
     let factor = Factor::of(M, parents.to_vec());
-    let is_nothing = |&k: &usize| (1.0 / (factor.inverse_D[k] * M[k][k])).abs() <= NOTHING;
+    let is_nothing = |&k: &usize| (1.0 / factor.inverse_D[k]).abs() <= NOTHING * M[k][k].abs();
     let idle = (0..M.len()).rev().find(is_nothing)?;
     // `L·v` is one at the idle pivot and zero elsewhere.
     let mut v = vec![0.0_f64; M.len()];
@@ -74,6 +81,8 @@ mod tests {
     fn joints_on_one_axis_cancel_each_other() {
         let M = vec![vec![3.0, 2.0, 2.0], vec![2.0, 2.0, 2.0], vec![2.0, 2.0, 2.0]];
         assert_eq!(idle_motion_of(&M, &[None, Some(0), Some(1)]), Some(vec![1, 2]));
+        let M = vec![vec![0.0, 0.0], vec![0.0, 2.0]];
+        assert_eq!(idle_motion_of(&M, &[None, Some(0)]), Some(vec![0]));
         let M = vec![vec![3.0, 0.0], vec![0.0, 1e-9]];
         assert_eq!(idle_motion_of(&M, &[None, Some(0)]), None);
     }

@@ -32,7 +32,7 @@ pub use oracle::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives, Oracle}
 pub use rnea::{bias_forces, gravity_forces, inverse_dynamics};
 pub use six::{Matrix6, Six};
 pub use terms::{
-    Flaw, flaw, flaw_of_dissipation, is_smooth, kinetic_energy as kinetic_terms,
-    potential_energy as potential_terms,
+    Flaw, Rough, flaw, flaw_of_dissipation, is_smooth, kinetic_energy as kinetic_terms,
+    potential_energy as potential_terms, rough,
 };
 pub use whole::{center_of_mass, centroidal_momentum, total_mass};

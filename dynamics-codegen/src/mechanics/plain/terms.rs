@@ -89,17 +89,42 @@ pub fn flaw(term: &Term<f64>, tree: &Tree<f64>, q: &[f64], v: &[f64]) -> Option<
     }
 }
 
-/// Whether a term has derivatives at a configuration: nothing divides by zero there, and no root is of zero.
-pub fn is_smooth<S: Scalar>(term: &Term<S>, tree: &Tree<S>, q: &[S]) -> bool {
-    let is_nothing = |part: &Term<S>| value(part, tree, q, &vec![S::zero(); tree.dof()]).is_zero();
+/// Why a term, or one of its derivatives, has no value at a state.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Rough<S = f64> {
+    /// It divides by zero.
+    Division,
+    /// Two points meet whose distance is not squared.
+    Distance,
+    /// It has the root of zero, or of less.
+    Root(S),
+}
+
+/// The first reason for which a term has no derivative at a state. `is_rootless` is whether a number is zero, or negative
+/// where that can be told.
+pub fn rough<S: Scalar>(
+    term: &Term<S>,
+    tree: &Tree<S>,
+    (q, v): (&[S], &[S]),
+    is_rootless: fn(S) -> bool,
+) -> Option<Rough<S>> {
+    let of_part = |part| rough(part, tree, (q, v), is_rootless);
     match term {
-        Term::Power(base, exponent) if exponent % 2 == 0 && matches!(**base, Term::Distance(_)) => true,
-        Term::Distance(frames) => !squared_distance(tree, *frames, q).is_zero(),
-        _ if !term.parts().into_iter().all(|part| is_smooth(part, tree, q)) => false,
-        Term::Quotient(parts) => !is_nothing(&parts[1]),
-        Term::Call(Function::Sqrt, inner) => !is_nothing(inner),
-        _ => true,
+        Term::Power(base, exponent) if exponent % 2 == 0 && matches!(**base, Term::Distance(_)) => None,
+        Term::Distance(frames) => squared_distance(tree, *frames, q).is_zero().then_some(Rough::Distance),
+        _ => term.parts().into_iter().find_map(of_part).or_else(|| match term {
+            Term::Quotient(parts) => value(&parts[1], tree, q, v).is_zero().then_some(Rough::Division),
+            Term::Call(Function::Sqrt, inner) => {
+                Some(value(inner, tree, q, v)).filter(|inner| is_rootless(*inner)).map(Rough::Root)
+            }
+            _ => None,
+        }),
     }
+}
+
+/// Whether a term has derivatives at rest at a configuration: nothing divides by zero there, and no root is of zero.
+pub fn is_smooth<S: Scalar>(term: &Term<S>, tree: &Tree<S>, q: &[S]) -> bool {
+    rough(term, tree, (q, &vec![S::zero(); tree.dof()]), S::is_zero).is_none()
 }
 
 fn power<S: Scalar>(base: S, exponent: u32) -> S {

@@ -1,0 +1,147 @@
+//! States at which the equations have no value, or not all of them.
+
+use serde_json::Value;
+
+use super::{Done, dynamics, folder, model};
+
+/// A top by Euler's angles, which no number can say of it when it stands upright; one in polar coordinates; and terms that
+/// are not smooth where points meet.
+const ROBOTS: &str = r#"
+    #[derive(Dynamics)]
+    #[joint(phi: revolute(z), world -> a)] #[body(a)]
+    #[joint(theta: revolute(x), a -> b)] #[body(b)]
+    #[joint(psi: revolute(z), b -> c)]
+    #[body(c, mass = 1, com = [0, 0, 0.3], inertia = diag(0.1, 0.1, 0.05))]
+    struct Top;
+
+    #[derive(Dynamics)]
+    #[joint(theta: revolute(z), world -> a)] #[body(a)]
+    #[joint(r: prismatic(x), a -> b)] #[body(b, solid = point(2))]
+    struct Polar;
+
+    #[derive(Dynamics)]
+    #[joint(t: translation, world -> b)] #[body(b, solid = sphere(1, 0.1))]
+    #[potential(3N_per_m / 2 * (distance(b, world) - 1)^2)]
+    struct Tied;
+
+    #[derive(Dynamics)]
+    #[coordinate(x: length)]
+    #[kinetic(2kg / 2 * dot(x)^2)]
+    #[potential(5N * sqrt(1 - x^2))]
+    struct Root;
+
+    #[derive(Dynamics)]
+    #[coordinate(x: length)]
+    #[kinetic(2kg * 1m / 2 * dot(x)^2 / x)]
+    struct Quotient;
+"#;
+
+fn on(robot: &str, command: &[&str]) -> Done {
+    // Tests run side by side.
+    let file = folder(&format!("absent_{robot}_{}", command.concat().len())).join("robots.rs");
+    std::fs::write(&file, ROBOTS).unwrap();
+    let (name, rest) = command.split_first().unwrap();
+    dynamics(&[&[name, file.to_str().unwrap(), "--robot", robot], rest].concat())
+}
+
+/// What `eval` prints and complains about where something has no value.
+fn partly(done: Done) -> (Value, String) {
+    assert_eq!(done.code, 1, "{}", done.stderr);
+    (serde_json::from_str(&done.stdout).unwrap(), done.stderr)
+}
+
+#[test]
+fn what_needs_no_inverse_has_its_value_where_there_is_none() {
+    let (values, complaint) = partly(on("Top", &["eval"]));
+    assert_eq!(values["M"][0], values["M"][2], "two rows are one");
+    assert!(values["Minv"].is_null() && values["a"].is_null(), "{values}");
+    assert!(values["C"].is_array() && values["potential_energy"].is_number(), "{values}");
+    let expected = "`Minv` and `a` have no value at this state: M(q) is singular, since `phi` and `psi` can move \
+                    together without moving any mass";
+    assert!(complaint.contains(expected) && complaint.contains("a `ball` joint"), "{complaint}");
+    // Elsewhere there is one.
+    on("Top", &["eval", "--state", r#"{"q": {"theta": 0.1}}"#]).ok();
+    let (values, complaint) = partly(on("Polar", &["eval", "--only", "a,M"]));
+    assert!(values["M"][0][0] == 0.0 && values["a"].is_null(), "{values}");
+    assert!(
+        complaint.contains("`a` has no value") && complaint.contains("`theta` moves no mass"),
+        "{complaint}"
+    );
+}
+
+#[test]
+fn a_term_that_is_not_smooth_is_named() {
+    let (values, complaint) = partly(on("Tied", &["eval", "--frame", "b"]));
+    assert!(values["G"].is_null() && values["M"].is_array() && values["frames"]["b"]["jacobian"].is_array());
+    assert!(complaint.contains("`G`, `h`, `tau` and `a` have no value at this state"), "{complaint}");
+    let expected = "`3N_per_m / 2 * (distance(b, world) - 1)^2` has the distance of two points that meet";
+    assert!(complaint.contains(expected), "{complaint}");
+    on("Tied", &["eval", "--state", r#"{"q": [0, 0, 1]}"#]).ok();
+
+    let state = |x: &str| format!("{{\"q\": [{x}]}}");
+    for (robot, x, expected) in [
+        ("Root", "1", "`5N * sqrt(1 - x^2)` has the root of zero"),
+        ("Root", "2", "`5N * sqrt(1 - x^2)` has the root of -3.0, which is no number"),
+        ("Quotient", "0", "`Minv`, `C`, `h`, `tau`, `a` and `kinetic_energy` have no value"),
+        ("Quotient", "0", "`2kg * 1m / 2 * dot(x)^2 / x` divides by zero"),
+    ] {
+        let (_, complaint) = partly(on(robot, &["eval", "--state", &state(x)]));
+        assert!(complaint.contains(expected), "{complaint}");
+    }
+}
+
+/// What a robot without bodies has no word for is not missed, unless it is asked for.
+#[test]
+fn a_robot_without_mass_has_no_centre_of_mass() {
+    let values: Value = serde_json::from_str(&on("Root", &["eval"]).ok()).unwrap();
+    assert!(values.get("com").is_none() && values["G"].is_array(), "{values}");
+    let (values, complaint) = partly(on("Root", &["eval", "--only", "com,M"]));
+    assert!(values["com"].is_null() && values["M"][0][0] == 2.0, "{values}");
+    assert!(
+        complaint.contains("`com` has no value at this state: no body that moves has mass"),
+        "{complaint}"
+    );
+}
+
+#[test]
+fn numbers_that_are_too_large_are_what_is_wrong() {
+    let state = r#"{"q": [1e200, 1e200], "v": [1e200, 1e200]}"#;
+    let (_, complaint) = partly(dynamics(&["eval", &model("cartpole"), "--state", state]));
+    assert!(
+        complaint.contains("too large for a double") && complaint.contains("smaller numbers"),
+        "{complaint}"
+    );
+}
+
+#[test]
+fn a_check_knows_a_singular_place_from_a_sound_one() {
+    for (robot, expected) in [
+        ("Top", "at q = 0, M(q) is singular, since `phi` and `psi` can move together"),
+        (
+            "Polar",
+            "at q = 0, M(q) is singular, since `theta` moves no mass: forward dynamics has no value there",
+        ),
+        (
+            "Tied",
+            "has the distance of two points that meet, and so no derivative: its force has no value there",
+        ),
+        ("Quotient", "divides by zero: forward dynamics has no value there"),
+        ("Root", "M(q) is positive definite at q = 0"),
+    ] {
+        let text = on(robot, &["check"]).ok();
+        assert!(text.contains(expected), "{text}");
+        assert_eq!(text.contains("positive definite"), ["Tied", "Root"].contains(&robot), "{text}");
+    }
+}
+
+#[test]
+fn a_motion_does_not_begin_where_there_is_no_acceleration() {
+    let simulate = ["simulate", "--time", "0.01", "--step", "0.001"];
+    let complaint = on("Top", &simulate).failed(1);
+    let expected = "the robot cannot move at its start, q = [0.0, 0.0, 0.0]: M(q) is singular";
+    assert!(complaint.contains(expected) && complaint.contains("another `q` by `--q`"), "{complaint}");
+    on("Top", &[&simulate[..], &["--q", "theta=0.5"]].concat()).ok();
+    let complaint = on("Top", &["report", "--q", "theta=0.5"]).failed(1);
+    let expected = "where the robot stands, at q = [0.0, 0.0, 0.0], it cannot move: M(q) is singular";
+    assert!(complaint.contains(expected) && complaint.contains("by `--state`"), "{complaint}");
+}
