@@ -84,8 +84,7 @@ impl Writer<'_> {
             best = self.shorter(self.sum_of(self.parts(items.clone(), Prefer::Weight)), best);
         }
         // Where all have sines, as in G, or there are a few terms.
-        let has_sine = |item: &Item| item.factors.iter().any(|(factor, _)| factor.is_trig());
-        if (items.len() <= FEW || items.iter().all(has_sine))
+        if (items.len() <= FEW || items.iter().all(Item::has_sines))
             && best_shared(&items, Prefer::Sines, &[]) != by_gain
         {
             best = self.shorter(best, self.sum_of(self.parts(items, Prefer::Sines)));
@@ -244,7 +243,7 @@ fn order(outside: &Item, inside: Option<&Item>) -> Order {
         |item: &Item| item.factors.iter().filter(|(factor, _)| matches!(factor, Factor::Trig(..))).count();
     let moving = |item: &Item| {
         let moves = |(factor, exponent): &(Factor, i32)| {
-            matches!(factor, Factor::Moving(_)).then(|| (factor.clone(), -*exponent))
+            matches!(factor, Factor::Moving(..)).then(|| (factor.clone(), -*exponent))
         };
         item.factors.iter().filter_map(moves).collect::<Vec<_>>()
     };

@@ -21,8 +21,8 @@ pub(super) enum Factor {
     Other(usize),
     /// The sine or, if so, the cosine of an angle.
     Trig(Angle, bool),
-    /// A speed, or what else the motion has.
-    Moving(SymbolId),
+    /// A speed, or what else the motion has; accelerations before speeds.
+    Moving(u8, SymbolId),
 }
 
 impl Factor {
@@ -32,14 +32,16 @@ impl Factor {
         match letter.role {
             Role::Parameter | Role::Intermediate => Self::Symbol(letter.rank, symbol),
             Role::Coordinate => Self::Symbol(u8::MAX, symbol),
-            Role::Speed | Role::Acceleration | Role::Force => Self::Moving(symbol),
+            Role::Acceleration => Self::Moving(0, symbol),
+            Role::Speed => Self::Moving(1, symbol),
+            Role::Force => Self::Moving(2, symbol),
         }
     }
 
     /// How long it is on paper, a symbol being 4.
     pub(super) fn length(&self) -> usize {
         match self {
-            Self::Pi | Self::Symbol(..) | Self::Moving(_) => 4,
+            Self::Pi | Self::Symbol(..) | Self::Moving(..) => 4,
             Self::Other(_) => 12,
             Self::Trig(angle, _) => {
                 let multiples = angle.iter().filter(|(_, times)| *times != 1).count();
@@ -55,7 +57,7 @@ impl Factor {
 
     /// Whether it moves.
     pub(super) fn is_moving(&self) -> bool {
-        matches!(self, Self::Moving(_))
+        matches!(self, Self::Moving(..))
     }
 
     /// Whether it is one with the body's parameters alone.
@@ -77,6 +79,11 @@ impl Item {
         self.factors.iter().find(|(known, _)| known == factor).map_or(0, |(_, exponent)| *exponent)
     }
 
+    /// Whether there is a sine or a cosine among its factors.
+    pub(super) fn has_sines(&self) -> bool {
+        self.factors.iter().any(|(factor, _)| factor.is_trig())
+    }
+
     /// The product with another factor's power.
     pub(super) fn multiply(&mut self, factor: Factor, exponent: i32) {
         let place = self.factors.iter().position(|(known, _)| *known >= factor);
@@ -91,6 +98,22 @@ impl Item {
             None => self.factors.push((factor, exponent)),
         }
     }
+}
+
+/// The powers of factors that all items have, the least of each, and the items without them.
+pub(super) fn split_powers(mut items: Vec<Item>) -> (Vec<(Factor, i32)>, Vec<Item>) {
+    let Some((first, others)) = items.split_first() else { return (vec![], items) };
+    let least = |(factor, exponent): &(Factor, i32)| {
+        let of_others = others.iter().map(|item| item.exponent(factor));
+        (factor.clone(), of_others.fold(*exponent, i32::min))
+    };
+    let shared: Vec<_> = first.factors.iter().map(least).filter(|(_, least)| *least > 0).collect();
+    for item in &mut items {
+        for (factor, exponent) in &shared {
+            item.multiply(factor.clone(), -exponent);
+        }
+    }
+    (shared, items)
 }
 
 /// What writes factors.
@@ -152,7 +175,7 @@ impl<'a> Writer<'a> {
     pub(super) fn form_of_factor(&self, factor: &Factor) -> Form {
         match factor {
             Factor::Pi => Form::Number(Number::PI),
-            Factor::Symbol(_, symbol) | Factor::Moving(symbol) => Form::Symbol(*symbol),
+            Factor::Symbol(_, symbol) | Factor::Moving(_, symbol) => Form::Symbol(*symbol),
             Factor::Other(place) => match self.others.iter().find(|other| other.place == *place) {
                 Some(other) => other.form.clone(),
                 None => self.form_of_variable(*place),

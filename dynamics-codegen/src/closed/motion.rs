@@ -2,7 +2,7 @@
 
 use super::Form;
 use super::collect::{place_of_bracket, split_common};
-use super::item::{Factor, Item, Writer};
+use super::item::{Factor, Item, Writer, split_powers};
 use super::monomial::Monomial;
 use super::polynomial::Polynomial;
 use super::ring::Variable;
@@ -21,9 +21,11 @@ impl Term {
     /// The product of two sums.
     fn of(items: Vec<Item>, motion: Vec<Item>) -> Self {
         let (mut outside, inside) = split_common(items);
-        let (mut shared_motion, motion) = split_common(motion);
-        outside.coefficient = outside.coefficient * shared_motion.coefficient;
-        shared_motion.coefficient = Number::ONE;
+        let (mut shared_motion, motion) = split_powers(motion);
+        let (number, motion) = split_common(motion);
+        shared_motion.extend(number.factors);
+        outside.coefficient = outside.coefficient * number.coefficient;
+        let shared_motion = Item { coefficient: Number::ONE, factors: shared_motion };
         Self { outside, inside, shared_motion, motion }
     }
 
@@ -32,6 +34,46 @@ impl Term {
         let (a, b) = (&self.outside, &other.outside);
         a.factors == b.factors && a.coefficient.abs() == b.coefficient.abs()
     }
+}
+
+/// Powers of speeds.
+type Motion = Vec<(Factor, i32)>;
+
+/// Polynomials with no more terms are written as one product, perhaps.
+const SINGLE: usize = 4;
+
+/// The products of speeds that are multiplied with one polynomial, but for its sign; squares together with others if it
+/// has several terms. A half stands in front of squares.
+fn groups(moving: Vec<(Motion, Polynomial)>) -> Vec<(Polynomial, Vec<Item>)> {
+    let mut groups: Vec<(Polynomial, Vec<Item>)> = Vec::new();
+    for (motion, polynomial) in moving {
+        let opposite = polynomial.scaled(-Number::ONE);
+        let is_square = is_square(&motion);
+        let same = |(known, items): &&mut (Polynomial, Vec<Item>)| {
+            let is_of_kind = polynomial.len() > 1 || self::is_square(&items[0].factors) == is_square;
+            is_of_kind && (*known == polynomial || *known == opposite)
+        };
+        match groups.iter_mut().find(same) {
+            Some((known, items)) => {
+                let sign = if *known == polynomial { Number::ONE } else { -Number::ONE };
+                items.push(Item { coefficient: sign, factors: motion });
+            }
+            None => groups.push((polynomial, vec![Item { coefficient: Number::ONE, factors: motion }])),
+        }
+    }
+    for (polynomial, items) in &mut groups {
+        if items.iter().all(|item| is_square(&item.factors)) {
+            *polynomial = polynomial.scaled(Number::integer(2));
+            for item in items {
+                item.coefficient = item.coefficient * Number::ratio(1, 2);
+            }
+        }
+    }
+    groups
+}
+
+fn is_square(motion: &[(Factor, i32)]) -> bool {
+    matches!(motion, [(_, 2)])
 }
 
 impl Writer<'_> {
@@ -47,13 +89,13 @@ impl Writer<'_> {
     }
 
     /// The polynomials that each product of speeds is multiplied with.
-    fn by_motion(&self, polynomial: &Polynomial) -> Vec<(Vec<(Factor, i32)>, Polynomial)> {
-        let mut moving: Vec<(Vec<(Factor, i32)>, Vec<_>)> = Vec::new();
+    fn by_motion(&self, polynomial: &Polynomial) -> Vec<(Motion, Polynomial)> {
+        let mut moving: Vec<(Motion, Vec<_>)> = Vec::new();
         for (monomial, coefficient) in polynomial.terms() {
             let (mut motion, mut rest) = (Vec::new(), *monomial);
             for (place, exponent) in monomial.exponents() {
                 if let Variable::Symbol(_) = self.ring.variables()[place]
-                    && let factor @ Factor::Moving(_) = self.factor(place)
+                    && let factor @ Factor::Moving(..) = self.factor(place)
                 {
                     motion.push((factor, exponent));
                     rest = rest.with(place, 0);
@@ -65,9 +107,10 @@ impl Writer<'_> {
                 None => moving.push((motion, vec![(rest, *coefficient)])),
             }
         }
-        // Squares of the first speed, its products, squares of the second, and so on.
+        // Squares of the first speed, its products, squares of the second, and so on; what does not move is last.
         let key = |motion: &[(Factor, i32)]| {
-            motion.iter().map(|(factor, n)| (factor.clone(), -n)).collect::<Vec<_>>()
+            let powers = motion.iter().map(|(factor, n)| (factor.clone(), -n)).collect::<Vec<_>>();
+            (powers.is_empty(), powers)
         };
         moving.sort_by_key(|(motion, _)| key(motion));
         moving.into_iter().map(|(motion, terms)| (motion, Polynomial::of_terms(terms))).collect()
@@ -75,32 +118,12 @@ impl Writer<'_> {
 
     /// A sum over products of speeds: `½ (…) θ̇₁² + (…) θ̇₁ θ̇₂`. Those with one coefficient share it, and those that
     /// differ in a bracket alone share what stands before it.
-    fn form_of_motion(&self, moving: Vec<(Vec<(Factor, i32)>, Polynomial)>) -> Form {
-        let half = Number::ratio(1, 2);
-        let mut at_rest = None;
-        let mut groups: Vec<(Polynomial, Vec<Item>)> = Vec::new();
-        for (motion, polynomial) in moving {
-            if motion.is_empty() {
-                at_rest = Some(polynomial);
-                continue;
-            }
-            // Half a square: the half stands in front, whatever the rest is.
-            let is_energy = motion.iter().map(|(_, n)| *n).sum::<i32>() == 2 && motion.len() == 1;
-            let outside = if is_energy { half } else { Number::ONE };
-            let polynomial = polynomial.scaled(Number::ONE / outside);
-            let opposite = polynomial.scaled(-Number::ONE);
-            let same = |(known, items): &&mut (Polynomial, Vec<Item>)| {
-                items[0].coefficient.abs() == outside && (*known == polynomial || *known == opposite)
-            };
-            match groups.iter_mut().find(same) {
-                Some((known, items)) => {
-                    let sign = if *known == polynomial { Number::ONE } else { -Number::ONE };
-                    items.push(Item { coefficient: outside * sign, factors: motion });
-                }
-                None => groups.push((polynomial, vec![Item { coefficient: outside, factors: motion }])),
-            }
-        }
-        let moving = self.sum_of_groups(groups);
+    fn form_of_motion(&self, mut moving: Vec<(Motion, Polynomial)>) -> Form {
+        let at_rest = moving.pop_if(|(motion, _)| motion.is_empty()).map(|(_, polynomial)| polynomial);
+        let moving = match self.single_terms(&moving) {
+            Some(form) => form,
+            None => self.sum_of_groups(groups(moving)),
+        };
         // What does not move is subtracted, as V is in T − V, and looks as it does alone.
         let rest = at_rest.map(|rest| self.collected(self.items(&rest.scaled(-Number::ONE))));
         let subtracted = match rest {
@@ -109,6 +132,34 @@ impl Writer<'_> {
             Some(form) => vec![form.negative()],
         };
         Form::sum(std::iter::once(moving).chain(subtracted))
+    }
+
+    /// `½ m (ṙ² + r² θ̇²)`: what has one term for each product of speeds, and something of the body in all of them.
+    fn single_terms(&self, moving: &[(Motion, Polynomial)]) -> Option<Form> {
+        let mut terms = Vec::with_capacity(moving.len());
+        for (motion, polynomial) in moving {
+            let mut items = if polynomial.len() <= SINGLE { self.items(polynomial) } else { return None };
+            let item = items.pop().filter(|_| items.is_empty())?;
+            terms.push((motion, item));
+        }
+        let (motion, items): (Vec<_>, Vec<_>) = terms.into_iter().unzip();
+        let is_one_group = items.iter().all(|item| item.factors == items[0].factors);
+        let (shared, items) = split_powers(items);
+        if is_one_group || !shared.iter().any(|(factor, _)| factor.is_parameter()) {
+            return None;
+        }
+        let inside = items.into_iter().zip(motion).map(|(mut item, motion)| {
+            for (factor, exponent) in motion {
+                item.multiply(factor.clone(), *exponent);
+            }
+            item
+        });
+        let (mut outside, inside) = split_common(inside.collect());
+        for (factor, exponent) in shared {
+            outside.multiply(factor, exponent);
+        }
+        let sum = Form::sum(inside.iter().map(|item| self.item(item)));
+        Some(self.product(outside.coefficient, &outside.factors, vec![(usize::MAX, sum)]))
     }
 
     /// The sum of polynomials, each times a sum of products of speeds.
@@ -125,7 +176,8 @@ impl Writer<'_> {
             }
             let alike: Vec<usize> =
                 (k..terms.len()).filter(|&j| !taken[j] && term.is_alike(&terms[j])).collect();
-            if alike.len() > 2 && !term.outside.factors.is_empty() {
+            let has_sines = |&j: &usize| terms[j].inside.iter().any(Item::has_sines);
+            if alike.len() > 2 && !term.outside.factors.is_empty() && !alike.iter().any(has_sines) {
                 let Item { coefficient, factors } = &term.outside;
                 let inner = alike.iter().map(|&j| {
                     let form = self.inner_term(&terms[j]);
@@ -173,8 +225,15 @@ impl Writer<'_> {
     }
 
     fn speeds(&self, term: &Term) -> Form {
-        let sum = Form::sum(term.motion.iter().map(|item| self.item(item)));
-        Form::product([self.item(&term.shared_motion), sum])
+        let (scale, sum) = self
+            .factored(&term.motion)
+            .unwrap_or_else(|| (Number::ONE, Form::sum(term.motion.iter().map(|item| self.item(item)))));
+        let shared = self.item(&term.shared_motion);
+        let first = |item: &Item| item.factors.first().map(|(factor, _)| factor.clone());
+        match term.motion.first().and_then(first) < first(&term.shared_motion) {
+            true => Form::product([Form::number(scale), sum, shared]),
+            false => Form::product([Form::number(scale), shared, sum]),
+        }
     }
 
     /// The items of a polynomial without speeds, its sines written shortest.
