@@ -3,6 +3,7 @@
 use dynamics_codegen::closed::{Form, Matrix};
 use dynamics_codegen::mechanics::equations::{Argument, Inputs};
 use dynamics_codegen::mechanics::lecture::{Body, Equations, Joint, Lecture, Linear, MOST_DOF, NoLinear};
+use dynamics_codegen::mechanics::letters::own;
 use dynamics_codegen::model::{Model, Motion};
 
 use super::document::{Block, Math, Piece, Side, indexed, lowered, math, words};
@@ -126,7 +127,7 @@ impl Text<'_, '_> {
 
     fn written(&self, form: &Form) -> Math {
         let notation = &self.lecture.notation;
-        math(form.unicode(notation), form.latex(notation))
+        math(own(&form.unicode(notation)), own(&form.latex(notation)))
     }
 
     fn steps(&mut self) {
