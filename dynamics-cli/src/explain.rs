@@ -3,6 +3,7 @@
 mod derivation;
 mod document;
 mod latex;
+mod letters;
 mod unicode;
 
 use std::path::Path;
@@ -11,6 +12,7 @@ use clap::ValueEnum;
 use dynamics_codegen::diagnostics::{Code, did_you_mean};
 use dynamics_codegen::judged;
 use dynamics_codegen::mechanics::lecture::lecture;
+use dynamics_codegen::mechanics::letters::Letters;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::failure::{Failure, Problem};
@@ -96,7 +98,8 @@ fn derive(args: &Args, file: &Path) -> Result<(), Failure> {
     let text = {
         let _progress = Progress::of("deriving");
         let lecture = lecture(&model, &graph);
-        let blocks = derivation::document(&model, &lecture);
+        let mut blocks = derivation::document(&model, &lecture);
+        letters::settle(&mut blocks, &Letters::of(&lecture.notation));
         match args.format {
             Format::Unicode => unicode::written(&blocks, &lecture.notation),
             Format::Latex => latex::written(&blocks, &lecture.notation, latex::Kind::Whole),

@@ -11,6 +11,8 @@ mod eval;
 mod explain;
 #[path = "cli/generate.rs"]
 mod generate;
+#[path = "cli/letters.rs"]
+mod letters;
 #[path = "cli/mistakes.rs"]
 mod mistakes;
 #[path = "cli/pictures.rs"]

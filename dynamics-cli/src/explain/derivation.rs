@@ -10,6 +10,7 @@ mod linear;
 use dynamics_codegen::closed::{Form, Matrix};
 use dynamics_codegen::mechanics::equations::{Argument, Inputs};
 use dynamics_codegen::mechanics::lecture::{Lecture, MOST_DOF, NoLinear};
+use dynamics_codegen::mechanics::letters::own;
 use dynamics_codegen::model::{Model, Passive};
 use dynamics_codegen::symbolic::Expr;
 
@@ -99,7 +100,7 @@ impl Text<'_, '_> {
 
     fn written(&self, form: &Form) -> Math {
         let notation = &self.lecture.notation;
-        math(form.unicode(notation), form.latex(notation))
+        math(own(&form.unicode(notation)), own(&form.latex(notation)))
     }
 
     fn title(&mut self) {

@@ -1,6 +1,6 @@
 //! A document in LaTeX, whole, or in Markdown with LaTeX's mathematics.
 
-use dynamics_codegen::closed::{Form, Notation};
+use dynamics_codegen::closed::{Form, Notation, ascii};
 
 use super::document::{Block, Piece, Side};
 
@@ -88,7 +88,7 @@ fn line(pieces: &[Piece], notation: &Notation, kind: Kind) -> String {
     pieces.iter().map(piece).collect()
 }
 
-/// A name without what commands are made of. What the font has not becomes a question mark.
+/// A name without what commands are made of. What the font has not is mathematics, or its number.
 fn escaped(name: &str) -> String {
     let mut text = String::new();
     for c in name.chars() {
@@ -98,7 +98,7 @@ fn escaped(name: &str) -> String {
             '^' => text += "\\textasciicircum{}",
             '#' | '$' | '%' | '&' | '_' | '{' | '}' => text.extend(['\\', c]),
             c if c.is_ascii() || matches!(c, 'À'..='ÿ') => text.push(c),
-            _ => text.push('?'),
+            _ => text += &format!("\\ensuremath{{\\mathrm{{{}}}}}", ascii(c)),
         }
     }
     text

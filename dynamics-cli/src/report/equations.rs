@@ -6,6 +6,7 @@ use dynamics_codegen::closed::{Form, Matrix, Notation};
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
+use dynamics_codegen::mechanics::letters::{self, Letters};
 use dynamics_codegen::model;
 use dynamics_codegen::spec::RobotSpec;
 use dynamics_codegen::symbolic::{Graph, SymbolId};
@@ -23,7 +24,14 @@ const LONGEST: usize = 400_000;
 const WIDEST: usize = 100;
 
 pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
-    let section = Section::new("equations", "Equations of motion").text(&told(subject));
+    let letters = Letters::of(&subject.notation);
+    let told = told(subject);
+    let section = Section::new("equations", "Equations of motion").text(&letters.unicode(&told));
+    let given_way = letters.given_way(&format!("{told} T V L"));
+    let section = match &given_way[..] {
+        [] => section,
+        given_way => section.text(&letters::told(given_way, |letter| letter.unicode.to_owned())),
+    };
     let section = section.table(symbols(subject));
     if subject.robot.dof() > LARGEST {
         return Ok(section.text(&too_large(subject)));
@@ -57,7 +65,7 @@ fn forms(subject: &Subject<'_, '_>) -> Result<Option<ClosedForms>, Failure> {
     Ok(model.and_then(|model| closed_forms(&model, &graph).ok()))
 }
 
-/// The equation of which these are the parts.
+/// The equation of which these are the parts. Its words have no article that could be taken for a letter.
 fn told(subject: &Subject<'_, '_>) -> String {
     let (tree, links) = (&subject.robot.tree, &subject.robot.model.links);
     let acts =
@@ -173,21 +181,28 @@ fn left(name: &str) -> String {
     text + "<mo>=</mo>"
 }
 
+/// The title and the left-hand side with letters that the robot leaves, and this in LaTeX.
+fn lettered(title: &str, name: &str, notation: &Notation) -> [String; 3] {
+    let letters = Letters::of(notation);
+    [letters.unicode(title), letters.unicode(name), letters.latex(name)]
+}
+
 /// In brackets, or where that is wider than a page, an equation for each entry that is not zero.
 fn of_matrix(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> Equation {
     let width = matrix.unicode(notation).iter().map(|line| line.chars().count()).max().unwrap_or(0);
     if width > WIDEST {
         return of_entries(title, name, matrix, notation);
     }
+    let [title, name, latex] = lettered(title, name, notation);
     Equation {
-        title: title.to_owned(),
-        mathml: math(&format!("<mrow>{}{}</mrow>", left(name), matrix.mathml(notation))),
-        latex: format!("{name} = {}", matrix.latex(notation)),
+        title,
+        mathml: math(&format!("<mrow>{}{}</mrow>", left(&name), matrix.mathml(notation))),
+        latex: format!("{latex} = {}", matrix.latex(notation)),
     }
 }
 
 fn of_entries(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> Equation {
-    let letter = name.split('(').next().unwrap_or(name);
+    let [title, letter, latex] = lettered(title, name.split('(').next().unwrap_or(name), notation);
     let lines = matrix.entries().filter(|(.., form)| !form.is_zero()).map(|(row, column, form)| {
         let place = |i: usize, j: usize| match matrix.columns() {
             1 => (i + 1).to_string(),
@@ -198,7 +213,7 @@ fn of_entries(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> 
             names.push(place(column, row));
         }
         let drawn = names.iter().map(|at| format!("<msub><mi>{letter}</mi><mn>{at}</mn></msub>"));
-        let set = names.iter().map(|at| format!("{letter}_{{{at}}}"));
+        let set = names.iter().map(|at| format!("{latex}_{{{at}}}"));
         Line {
             name: drawn.collect::<Vec<_>>().join("<mo>=</mo>"),
             mathml: form.mathml(notation),
@@ -208,8 +223,7 @@ fn of_entries(title: &str, name: &str, matrix: &Matrix, notation: &Notation) -> 
     let lines: Vec<Line> = lines.collect();
     let all = matrix.rows() * matrix.columns();
     let given = lines.len() < matrix.entries().count();
-    let title =
-        if given && all > 1 { format!("{title}; the other entries are zero") } else { title.to_owned() };
+    let title = if given && all > 1 { format!("{title}; the other entries are zero") } else { title };
     of_lines(title, &lines)
 }
 
@@ -238,10 +252,11 @@ fn of_lines(title: String, lines: &[Line]) -> Equation {
 }
 
 fn of_form(title: &str, name: &str, form: &Form, notation: &Notation) -> Equation {
+    let [title, name, latex] = lettered(title, name, notation);
     Equation {
-        title: title.to_owned(),
-        mathml: math(&format!("<mrow>{}{}</mrow>", left(name), form.mathml(notation))),
-        latex: format!("{name} = {}", form.latex(notation)),
+        title,
+        mathml: math(&format!("<mrow>{}{}</mrow>", left(&name), form.mathml(notation))),
+        latex: format!("{latex} = {}", form.latex(notation)),
     }
 }
 

@@ -35,7 +35,7 @@ pub use evaluate::{evaluate, expression};
 pub use form::Form;
 pub use mathml::math;
 pub use matrix::Matrix;
-pub use name::Name;
+pub use name::{Name, ascii};
 pub use notation::{Letter, Notation, Role};
 pub use parse::Unreadable;
 pub use polynomial::Polynomial;

@@ -250,8 +250,8 @@ fn upright(word: &str) -> String {
     format!("\\mathrm{{{}}}", word.chars().map(ascii).collect::<String>())
 }
 
-/// A letter of a word in LaTeX's mathematics. What its fonts do not have is written by its number.
-fn ascii(letter: char) -> String {
+/// A letter of a word in LaTeX's mathematics, in ASCII. What its fonts do not have is written by its number.
+pub fn ascii(letter: char) -> String {
     let greek = GREEK.iter().chain(MORE_GREEK).find(|(_, greek)| *greek == letter);
     let accented = ACCENTS.iter().find_map(|(accent, accented, plain)| {
         let place = accented.chars().position(|known| known == letter)?;

@@ -16,6 +16,7 @@ pub mod gauge;
 mod joint_names;
 pub mod lagrange;
 pub mod lecture;
+pub mod letters;
 pub mod method;
 pub mod motion;
 pub mod normal;

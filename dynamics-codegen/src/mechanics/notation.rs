@@ -48,6 +48,9 @@ const FORCES: [&str; 3] = ["tau", "Q", "F"];
 /// Quantities that stand before others, by their exponents of kg, m and s: moments of inertia, masses, gravity.
 const RANKS: [[i64; 3]; 3] = [[1, 2, 0], [1, 0, 0], [0, 1, -2]];
 
+/// The place of masses among them.
+pub(super) const RANK_OF_MASSES: u8 = 1;
+
 /// Beginnings of names, and the letters that are written for them.
 type Letters = &'static [(&'static str, &'static str)];
 

@@ -312,3 +312,23 @@ fn coordinates_have_the_letters_of_textbooks() {
         #[joint(right: prismatic(x), world -> b)] #[body(b, solid = point(m))] struct Two<T> { m: T }";
     assert_eq!(coordinates(two), ["x₁", "x₂"]);
 }
+
+/// The documentation of what is generated has no letter in two meanings.
+#[test]
+fn documentation_leaves_the_robot_its_letters() {
+    let of = |mass: &str, length: &str| {
+        let source = format!(
+            "#[joint(theta: revolute(y), world -> rod)] #[body(rod, com = [0, 0, {length}], solid = point({mass}))]
+             struct Robot<F> {{ {mass}: F, {length}: F }}"
+        );
+        dynamics_codegen::generate(&syn::parse_str(&source).unwrap()).unwrap().to_string()
+    };
+    let (usual, greedy) = (of("m", "l"), of("M", "L"));
+    for line in ["M = [m l²]", "L = ½ m l² θ\u{307}²"] {
+        assert!(usual.contains(line) && !usual.contains("of its own"), "{line} in {usual}");
+    }
+    for line in ["𝐌 = [M L²]", "ℒ = ½ M L² θ\u{307}²", "The robot has a letter M of its own; here this is 𝐌:"]
+    {
+        assert!(greedy.contains(line), "{line} in {greedy}");
+    }
+}

@@ -6,6 +6,7 @@ use super::items::Emitter;
 use crate::closed::{Form, Matrix, Notation};
 use crate::mechanics::closed::ClosedForms;
 use crate::mechanics::equations::Method;
+use crate::mechanics::letters::Letters;
 
 /// A documentation has no more lines of equations.
 const LINES: usize = 16;
@@ -53,6 +54,7 @@ pub(super) fn documentation(closed: Option<&ClosedForms>, method: Method) -> Vec
         return vec![];
     };
     let notation = &closed.notation;
+    let (plain, letter) = (letter, &*Letters::of(notation).unicode(letter));
     let mut lines = beside(letter, &value.unicode(notation));
     if lines.iter().any(|line| line.chars().count() > WIDTH) {
         lines = match value {
@@ -70,7 +72,11 @@ pub(super) fn documentation(closed: Option<&ClosedForms>, method: Method) -> Vec
     if lines.len() > LINES || lines.iter().any(|line| line.chars().count() > 2 * WIDTH) {
         return vec!["Its closed form is in `equations()`: it is too long for this place.".to_owned()];
     }
-    [vec!["```text".to_owned()], lines, vec!["```".to_owned()]].concat()
+    let mut told = vec![];
+    if letter != plain {
+        told.push(format!("The robot has a letter {plain} of its own; here this is {letter}:"));
+    }
+    [told, vec!["```text".to_owned()], lines, vec!["```".to_owned()]].concat()
 }
 
 /// A matrix with a letter before it, on its middle line.
