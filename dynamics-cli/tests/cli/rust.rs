@@ -262,6 +262,26 @@ fn mistakes_are_shown_in_the_file() {
 }
 
 /// A mistake in the file that a struct names is shown there.
+/// Where a file stops being Rust is shown, and why.
+#[test]
+fn what_is_no_rust_is_shown_in_the_file() {
+    for (file, place, expected) in [
+        ("#[derive(Dynamics)]\nstruct A;\nfn f() { ( ]\n", ":3:12\n", "`]` is no partner of the last one"),
+        ("fn f() }", ":1:8\n", "`}` is no partner of the last one"),
+        ("// )\nfn f() {\n  let ü = [1, 2;\n", ":3:11\n", "`[` is never closed"),
+        ("let a = \"abc\nfoo", ":1:9\n", "with a quote has no end"),
+        ("let c = '\\u{110000}';", ":1:9\n", "or is no token"),
+        ("let x = 0b9;", ":1:9\n", "is no number"),
+        ("let x = \\;", ":1:9\n", "no token begins with `\\`"),
+    ] {
+        let complaint = dynamics_on(file.as_bytes(), &["check", "-", "--robot", "A"]).failed(1);
+        assert!(
+            complaint.contains(expected) && complaint.contains(&format!("<stdin>{place}")),
+            "{complaint}"
+        );
+    }
+}
+
 #[test]
 fn mistakes_in_a_urdf_of_a_struct_are_shown_in_it() {
     let file = a_crate("urdf_of_struct");
