@@ -17,6 +17,8 @@ pub(crate) struct Kind {
     pub(crate) example: &'static str,
     /// What may stand behind the sign.
     pub(crate) forms: &'static str,
+    /// Whether a comma ends it, and another one follows.
+    pub(crate) separates: bool,
 }
 
 /// `name = tokens`, before it is known what the name stands for.
@@ -32,12 +34,19 @@ pub(crate) struct Assignment {
 impl Assignment {
     /// Reads the value of an option.
     pub(crate) fn read(kind: &'static Kind, text: &str) -> Result<Self, Failure> {
-        let Kind { option, example, forms } = kind;
+        let Kind { option, example, forms, separates } = kind;
         let text = text.replace(['\n', '\r'], " ");
         let end = text.chars().count();
         let Some((before, _)) = text.rsplit_once('=') else {
             let problem = spotted(Problem::new(format!("`--{option}` has no `=`")), kind, &text, 0..end);
-            return Err(problem.help(format!("write a name and its value: {example}")).into());
+            let is_number = text.trim().starts_with(|c: char| c.is_ascii_digit());
+            return Err(match is_number && *separates {
+                true => {
+                    problem.help("write a point in a number, as in 1.5: a comma stands before the next name")
+                }
+                false => problem.help(format!("write a name and its value: {example}")),
+            }
+            .into());
         };
         let name = before.trim().to_owned();
         let columns = before.chars().count() + 1;
@@ -98,7 +107,8 @@ impl Assignment {
         let problem = Problem { code: Some(found.code.to_string()), ..Problem::new(found.message.clone()) };
         let range = range.unwrap_or(0..self.text.chars().count());
         // The catalogue's help is about attributes.
-        let help = if found.code == Code::Syntax { self.kind.forms } else { found.help_text() };
+        let is_of_catalogue = found.code == Code::Syntax && found.help.is_none();
+        let help = if is_of_catalogue { self.kind.forms } else { found.help_text() };
         spotted(problem, self.kind, &self.text, range).help(help)
     }
 }

@@ -1,5 +1,6 @@
 //! `dynamics generate FILE --lang rust` or `c`: the code of a robot, as files to commit.
 
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
@@ -11,7 +12,7 @@ use dynamics_codegen::{generate_c, generate_rust};
 
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, name_of, shown};
-use crate::output::{failed, print, writer};
+use crate::output::{check_writable, failed, print, writer};
 use crate::progress::Progress;
 use crate::reading::InputArgs;
 use crate::robot::NAME;
@@ -92,6 +93,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
             attributes.add("outputs", "#[dynamics(outputs(", outputs, "))]");
         }
     })?;
+    if args.lang == Language::Rust && !args.check {
+        check_writable(args.output.as_deref(), &args.input.file)?;
+    }
     let (mut spec, report) = input.spec(&[])?;
     let name = match given {
         Some(name) => name.to_owned(),
@@ -179,7 +183,9 @@ fn c(args: &Args, input: &Input, spec: &RobotSpec, name: &str) -> Result<Vec<Fil
     };
     let written = generate_c(spec, name, real, &origin(args, input, name)).map_err(wrong)?;
     for left in &written.left_out {
-        eprintln!("left out: `{}`, for which the robot is too large", left.function);
+        // Nobody is left to be told that there is nobody to tell.
+        let _ =
+            writeln!(std::io::stderr(), "left out: `{}`, for which the robot is too large", left.function);
     }
     let folder = args.output.clone().unwrap_or_default();
     if !args.check && !folder.as_os_str().is_empty() {

@@ -83,7 +83,8 @@ impl Input {
             let model = model::build(&spec, &graph, &mut diags);
             diags.check().map_err(|found| Failure::mistakes(found, self))?;
             let parameters = model.map_or(vec![], |model| model.parameters);
-            spec.known = fields::known(&self.settings, &spec, &parameters)?;
+            spec.known = fields::known(&self.settings, &spec, &parameters, self)?;
+            fields::judge(&self.settings, &spec, self)?;
         }
         Ok((spec, report))
     }

@@ -6,6 +6,7 @@ use dynamics_core::__private::{ball_rate, free_rate, integrate_ball, integrate_f
 use dynamics_core::simulate::{Explicit, Flow, March, Rk4, SemiImplicitEuler, Tolerances};
 use dynamics_core::{Error, Scalar};
 
+use crate::absence::Absence;
 use crate::failure::{Failure, Problem};
 use crate::robot::{Robot, State};
 
@@ -94,6 +95,14 @@ fn part<T: Scalar, const N: usize>(x: &[T], from: usize) -> [T; N] {
 struct Unforced<'r, 'g> {
     robot: &'r Robot<'g>,
     links: Links,
+    /// Why it had no acceleration somewhere on the last step.
+    absent: Option<Absence>,
+}
+
+impl<'r, 'g> Unforced<'r, 'g> {
+    fn of(robot: &'r Robot<'g>) -> Self {
+        Self { robot, links: Links::of(&robot.tree), absent: None }
+    }
 }
 
 impl Flow for Unforced<'_, '_> {
@@ -116,8 +125,10 @@ impl Flow for Unforced<'_, '_> {
     fn acceleration(&mut self, _time: f64, q: &Vec<f64>, v: &Vec<f64>) -> Vec<f64> {
         let zeros = vec![0.0; v.len()];
         let state = State { q: q.clone(), v: v.clone(), a: zeros.clone(), tau: zeros };
-        // Why there is none is asked where a step began.
-        self.robot.evaluate(Method::ForwardDynamics, &state).unwrap_or_else(|_| vec![f64::NAN; v.len()])
+        self.robot.evaluate(Method::ForwardDynamics, &state).unwrap_or_else(|absent| {
+            self.absent.get_or_insert(absent.why);
+            vec![f64::NAN; v.len()]
+        })
     }
 }
 
@@ -136,7 +147,7 @@ enum By {
 impl<'r, 'g> Mover<'r, 'g> {
     /// In steps of a given size.
     pub(crate) fn fixed(robot: &'r Robot<'g>, state: State, method: FixedStep) -> Self {
-        Self { flow: Unforced { robot, links: Links::of(&robot.tree) }, state, by: By::Fixed(method) }
+        Self { flow: Unforced::of(robot), state, by: By::Fixed(method) }
     }
 
     /// In steps of their own size, within a tolerance.
@@ -146,11 +157,7 @@ impl<'r, 'g> Mover<'r, 'g> {
             March::new(place, Tolerances::of(tolerance)).map_err(|error| Problem::new(error.to_string()))?;
         // Whoever asks for many steps may wait for them.
         let march = march.with_most_steps(usize::MAX);
-        Ok(Self {
-            flow: Unforced { robot, links: Links::of(&robot.tree) },
-            state,
-            by: By::Adaptive(Box::new(march)),
-        })
+        Ok(Self { flow: Unforced::of(robot), state, by: By::Adaptive(Box::new(march)) })
     }
 
     /// The state now.
@@ -161,6 +168,7 @@ impl<'r, 'g> Mover<'r, 'g> {
     /// Goes from one time to another, in s, of a motion that ends with `end`; or says what is wrong, and when.
     pub(crate) fn advance(&mut self, [before, now]: [f64; 2], end: f64) -> Result<(), (Failure, f64)> {
         let State { q, v, .. } = &self.state;
+        self.flow.absent = None;
         let reached = match &mut self.by {
             By::Fixed(method) => Ok(method.follow(&mut self.flow, before, (q, v), now - before)),
             By::Adaptive(march) => march.reach(&mut self.flow, now, end).map_err(|error| match error {
@@ -176,8 +184,10 @@ impl<'r, 'g> Mover<'r, 'g> {
             }
             lost => {
                 let (title, time) = lost.err().unwrap_or((NOT_FINITE, now));
-                let cause = self.flow.robot.evaluate(Method::ForwardDynamics, &self.state).err();
-                Err((cause.map_or_else(|| Problem::new(title).into(), Failure::from), time))
+                // What grew beyond doubles is no more than that.
+                let why = self.flow.absent.take().filter(|why| *why != Absence::TooLarge);
+                let title = why.map_or(title.to_owned(), |why| format!("{title}: {}", why.fact()));
+                Err((Problem::new(title).into(), time))
             }
         }
     }

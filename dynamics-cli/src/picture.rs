@@ -10,7 +10,7 @@ use dynamics_core::Energy;
 use dynamics_view::{Figure, Film};
 
 use crate::failure::{Failure, Problem};
-use crate::output::{failed, writer};
+use crate::output::{check_writable, failed, writer};
 use crate::robot::{Robot, State};
 use crate::simulate::energies;
 use charts::Wish;
@@ -93,8 +93,12 @@ impl<'a, 'g> Recording<'a, 'g> {
             let problem = Problem::new("`--plot` and `--animate` name the same file");
             return Err(problem.help("give each a file of its own").into());
         }
+        if args.animate.is_some() && robot.tree.frames.is_empty() {
+            let problem = Problem::new("`--animate` has nothing to draw: the robot has no body with a place");
+            return Err(problem.help("draw charts by `--plot`, or describe its bodies").into());
+        }
         for path in [&args.plot, &args.animate].into_iter().flatten() {
-            drop(writer(Some(path), input)?);
+            check_writable(Some(path), input)?;
         }
         Ok(Self { args, robot, input, moments: vec![], steps, stride: steps.div_ceil(MOMENTS).max(1) })
     }
@@ -168,5 +172,9 @@ pub(crate) fn robot_name(robot: &Robot<'_>) -> String {
 
 /// What cannot be drawn.
 pub(crate) fn undrawn(error: dynamics_view::Error) -> Failure {
-    Problem::new(error.to_string()).into()
+    let help = match error {
+        dynamics_view::Error::NotDrawable { .. } => "give a shorter time, or smaller numbers at the start",
+        _ => "leave the picture out; and please report this, with the file",
+    };
+    Problem::new(error.to_string()).help(help).into()
 }

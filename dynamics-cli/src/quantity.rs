@@ -77,7 +77,7 @@ fn of(formula: &Formula) -> Result<Value, Diagnostic> {
                     std::array::from_fn(|k| before[k] + sign * unit[k])
                 });
                 let value = match factor.divides {
-                    true => product.0.checked_div(value).ok_or_else(|| out_of_range(&factor.formula))?,
+                    true => product.0.checked_div(value).ok_or_else(|| by_zero(&factor.formula))?,
                     false => product.0 * value,
                 };
                 product = (value, units.or(product.1));
@@ -88,7 +88,7 @@ fn of(formula: &Formula) -> Result<Value, Diagnostic> {
             let (value, unit) = of(base)?;
             let power = (0..exponent.unsigned_abs()).fold(Number::ONE, |power, _| power * value);
             let power = match *exponent < 0 {
-                true => Number::ONE.checked_div(power).ok_or_else(|| out_of_range(base))?,
+                true => Number::ONE.checked_div(power).ok_or_else(|| by_zero(base))?,
                 false => power,
             };
             (power, unit.map(|unit| unit.map(|own| own * exponent)))
@@ -102,9 +102,19 @@ fn of(formula: &Formula) -> Result<Value, Diagnostic> {
                 Function::Cos => Some(value.cos()),
                 Function::Sqrt => value.sqrt(),
             };
-            (value.ok_or_else(|| out_of_range(argument))?, None)
+            (value.ok_or_else(|| rootless(argument))?, None)
         }
     })
+}
+
+fn by_zero(formula: &Formula) -> Diagnostic {
+    let message = format!("the divisor `{}` is zero", formula.short_text());
+    Diagnostic::new(Code::DivisionByZero, &formula.place, message)
+}
+
+fn rootless(formula: &Formula) -> Diagnostic {
+    let message = format!("`{}` is negative, and has no root", formula.short_text());
+    Diagnostic::new(Code::RootOfNegative, &formula.place, message)
 }
 
 fn out_of_range(formula: &Formula) -> Diagnostic {

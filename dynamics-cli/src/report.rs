@@ -21,7 +21,7 @@ use dynamics_view::page::Page;
 
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, shown};
-use crate::output::{failed, writer};
+use crate::output::{check_writable, failed, writer};
 use crate::picture::{robot_name, undrawn};
 use crate::progress::Progress;
 use crate::reading::InputArgs;
@@ -70,7 +70,7 @@ pub(crate) struct Args {
 const EXAMPLES: &str = "\
 The page is one file and asks the network for nothing. It has sections of
 
-  the robot                  in three dimensions, with a slider for each coordinate
+  the robot                  in three dimensions, with a slider for each coordinate, if it has bodies
   its parameters             masses, inertias, joints, limits, dampers, springs and rotors
   its equations              M, C, G, T, V and L, with LaTeX to be copied
   the structure of M         which entries are zero, which constant, and on what the others depend
@@ -110,6 +110,7 @@ impl Subject<'_, '_> {
 /// Runs the command.
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
+    check_writable(args.output.as_deref(), &args.input.file)?;
     let graph = Graph::new();
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
     let at = state::read(&args.state, &args.input.file, &robot)?;
@@ -141,9 +142,13 @@ fn page(subject: &Subject<'_, '_>, args: &Args, start: State) -> Result<Page, Fa
     let swing = swing::Swing::of(subject.robot, start, time, args.step)?;
     let is_held = args.state.contains("tau");
     let version = env!("CARGO_PKG_VERSION");
-    Ok(summary::put(Page::new(&subject.name), subject)
-        .with_stage(stage::of(subject, &swing))
-        .section(stage::section())
+    let page = summary::put(Page::new(&subject.name), subject);
+    let page = match stage::is_empty(subject.robot) {
+        true => page,
+        false => page.with_stage(stage::of(subject, &swing)),
+    };
+    Ok(page
+        .section(stage::section(subject.robot))
         .section(parameters::section(subject))
         .section(equations::section(subject)?)
         .section(structure::section(subject))

@@ -64,13 +64,8 @@ pub(crate) fn robot(file: &str, text: &str, wanted: Option<&str>) -> Result<Deri
 
 /// All robots of a file, in order.
 fn robots(file: &str, text: &str) -> Result<Vec<DeriveInput>, Failure> {
-    let tokens: TokenStream = text.parse().map_err(|error: proc_macro2::LexError| {
-        let problem = Problem::new(format!(
-            "{file} is no Rust: a bracket or a quote has no partner, or a token no end"
-        ));
-        let spot = spot_of(file, text, error.span(), error.span()).map(Box::new);
-        Problem { spot, ..problem.help("correct the file, so that rustc reads it") }
-    })?;
+    let tokens: TokenStream =
+        text.parse().map_err(|error: proc_macro2::LexError| no_tokens(file, text, error.span().start()))?;
     if nested_deeper_than(&tokens, NESTING_LIMIT) {
         let problem = Problem::new(format!("groups are nested more than {NESTING_LIMIT} deep in {file}"));
         let code = Some(Code::NestingTooDeep.to_string());
@@ -108,6 +103,31 @@ fn robots(file: &str, text: &str) -> Result<Vec<DeriveInput>, Failure> {
         }
     }
     if wrong.is_empty() { Ok(robots) } else { Err(Failure::Wrong(wrong)) }
+}
+
+/// What is wrong where a file stops being tokens: at a bracket without a partner, or at what begins no token.
+fn no_tokens(file: &str, text: &str, LineColumn { line, column }: LineColumn) -> Problem {
+    let found = text.split('\n').nth(line.saturating_sub(1)).unwrap_or_default();
+    let at = found.chars().nth(column);
+    let fact = match at {
+        Some(open @ ('(' | '[' | '{')) => format!("the bracket `{open}` is never closed"),
+        Some(close @ (')' | ']' | '}')) => {
+            format!("the bracket `{close}` is no partner of the last one that is open")
+        }
+        Some('"' | '\'' | 'r' | 'b' | 'c') => {
+            "what begins here with a quote has no end, or is no token".to_owned()
+        }
+        Some('0'..='9') => "what begins here is no number".to_owned(),
+        Some(other) => format!("no token begins with `{}`", shown(&other.to_string())),
+        None => "it ends within a token".to_owned(),
+    };
+    let mut spot = Spot::in_text(file, text, line, column + 1);
+    if let Some((line, span)) = &mut spot.source {
+        let length = line[span.start..].chars().next().map_or(0, char::len_utf8);
+        *span = span.start..span.start + length;
+    }
+    let problem = Problem::new(format!("{file} is no Rust: {fact}"));
+    Problem { spot: Some(spot.into()), ..problem.help("correct the file, so that rustc reads it") }
 }
 
 /// The contents of the attributes that tokens begin with.

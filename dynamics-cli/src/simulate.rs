@@ -219,7 +219,10 @@ fn lost(failure: Failure, time: f64, method: Integrator) -> Failure {
         Integrator::Adaptive => "give a larger `--tolerance`, or another state at the start",
     };
     for problem in &mut problems {
-        problem.title = format!("{}, {time:?} s after the start", problem.title);
+        // The moment stands before the reason.
+        let (fact, why) = problem.title.split_once(": ").unwrap_or((&problem.title, ""));
+        let colon = if why.is_empty() { "" } else { ": " };
+        problem.title = format!("{fact}, {time:?} s after the start{colon}{why}");
         problem.help = Some(remedy.to_owned());
     }
     Failure::Wrong(problems)

@@ -16,20 +16,11 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let bodies = scene::of(robot, String::new()).bodies;
     let mut section = Section::new("parameters", "Parameters")
         .text("All numbers are in SI units, angles in radians.")
-        .preformatted("The tree of bodies", &tree(subject))
-        .heading("Masses")
-        .table(masses(&bodies))
-        .remark(
-            "Each with all that is welded to it. The centre of mass c is in the body's own frame, the inertia about \
-             c in the body's axes.",
-        )
-        .heading("Joints")
-        .table(joints(subject, &bodies))
-        .remark(
-            "The frame of a body is where its joint at zero puts it in the frame of its parent; its axis is in the \
-             body's own frame.",
-        )
-        .table(table("Coordinates and limits", &check::joint_rows(robot)));
+        .preformatted("The tree of bodies", &tree(subject));
+    if !bodies.is_empty() {
+        section = of_bodies(section, subject, &bodies);
+    }
+    section = section.table(table("Coordinates and limits", &check::joint_rows(robot)));
     let followers = check::followers(&robot.spec);
     if !followers.is_empty() {
         section = section
@@ -44,6 +35,23 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
             &passive,
         )),
     }
+}
+
+/// What bodies weigh, and what carries them.
+fn of_bodies(section: Section, subject: &Subject<'_, '_>, bodies: &[Body]) -> Section {
+    section
+        .heading("Masses")
+        .table(masses(bodies))
+        .remark(
+            "Each with all that is welded to it. The centre of mass c is in the body's own frame, the inertia about \
+             c in the body's axes.",
+        )
+        .heading("Joints")
+        .table(joints(subject, bodies))
+        .remark(
+            "The frame of a body is where its joint at zero puts it in the frame of its parent; its axis is in the \
+             body's own frame.",
+        )
 }
 
 /// The tree as `check` draws it, without its margin.

@@ -9,26 +9,36 @@ use dynamics_view::{Body, Drive, Linkage, Measure, Mount};
 
 use super::Subject;
 use super::swing::{Swing, limits};
-use crate::picture::charts::{self, Wish, parts};
+use crate::picture::charts::parts;
 use crate::picture::scene;
 use crate::robot::{Robot, State};
 
-pub(super) fn section() -> Section {
-    Section::new("robot", "The robot").robot()
+/// Whether there is nothing to draw: no body has a place.
+pub(super) fn is_empty(robot: &Robot<'_>) -> bool {
+    robot.tree.frames.is_empty()
+}
+
+pub(super) fn section(robot: &Robot<'_>) -> Section {
+    let section = Section::new("robot", "The robot");
+    match is_empty(robot) {
+        true => section.text(
+            "There is nothing to draw: it has coordinates and energies, and no body with a place in the world.",
+        ),
+        false => section.robot(),
+    }
 }
 
 pub(super) fn of(subject: &Subject<'_, '_>, swing: &Swing) -> Stage {
     let robot = subject.robot;
     let frames = swing.frames();
     let scene = scene::of(robot, subject.name.clone());
-    let wishes = [Wish::Angles, Wish::Speeds, Wish::Energy];
     Stage {
         linkage: linkage(robot),
         handles: handles(robot),
         start: subject.at.q.clone(),
         times: frames.iter().map(|moment| moment.time).collect(),
         motion: frames.iter().map(|moment| moment.state.q.clone()).collect(),
-        charts: wishes.iter().flat_map(|wish| charts::over_time(wish, robot, &frames)).collect(),
+        charts: swing.charts(robot),
         tip: tip(&scene.bodies),
         scene,
     }

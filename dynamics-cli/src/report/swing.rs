@@ -2,13 +2,13 @@
 
 use dynamics_core::Energy;
 use dynamics_view::page::{Section, number};
-use dynamics_view::{Coordinate, Measure};
+use dynamics_view::{Chart, Coordinate, Figure, Measure};
 
-use super::Subject;
+use super::{Subject, stage};
 use crate::absence::Absent;
 use crate::failure::Failure;
 use crate::motion::{FixedStep, Mover};
-use crate::picture::charts::parts;
+use crate::picture::charts::{self, Wish, parts};
 use crate::picture::{Moment, thinned};
 use crate::robot::{Robot, State};
 use crate::simulate::{Clock, energies};
@@ -18,6 +18,9 @@ use crate::state;
 const OFF: f64 = 0.3;
 /// How fast a body that is free turns about each of its axes where nothing else is said, rad/s.
 const SPIN: f64 = 1.0;
+
+/// The width of a chart that nothing moves, in pixels.
+const WIDTH: f64 = 560.0;
 
 /// A motion, and what became of it.
 pub(super) struct Swing {
@@ -128,6 +131,13 @@ impl Swing {
         thinned(&self.moments)
     }
 
+    /// Coordinates, speeds and energy over time.
+    pub(super) fn charts(&self, robot: &Robot<'_>) -> Vec<Chart> {
+        let frames = self.frames();
+        let wishes = [Wish::Angles, Wish::Speeds, Wish::Energy];
+        wishes.iter().flat_map(|wish| charts::over_time(wish, robot, &frames)).collect()
+    }
+
     pub(super) fn section(&self, subject: &Subject<'_, '_>) -> Section {
         let (Some(first), Some(last)) = (self.moments.first(), self.moments.last()) else {
             return Section::new("swing", "A swing");
@@ -137,7 +147,7 @@ impl Swing {
             End::Time => format!("for {time} s"),
             End::Stop { joint } => format!("for {time} s, until `{joint}` comes to its end"),
             End::Lost { why } => {
-                format!("for {time} s; then {why}: with a smaller `--step` it may go on")
+                format!("for {time} s; then {why}. With a smaller `--step` it may go on")
             }
         };
         let drift = self.moments.iter().map(|now| (now.energy.total() - first.energy.total()).abs());
@@ -156,10 +166,17 @@ impl Swing {
                 "Nothing takes energy from it: the total changed by no more than {drift} J, which is the method's error."
             ),
         };
-        Section::new("swing", "A swing")
-            .text(&format!("The robot left to itself {ending}. Its motors are off. {account}{}", self.limits_passed()))
-            .swing()
-            .remark(
+        let section = Section::new("swing", "A swing").text(&format!(
+            "The robot left to itself {ending}. Its motors are off. {account}{}",
+            self.limits_passed()
+        ));
+        let section = match stage::is_empty(subject.robot) {
+            true => self.charts(subject.robot).into_iter().fold(section, |section, chart| {
+                section.figure("a chart over time", Figure::new("").with(chart).wide(WIDTH))
+            }),
+            false => section.swing(),
+        };
+        section.remark(
                 "By the classical method of Runge and Kutta, of fourth order; `dynamics simulate` writes the numbers, \
                  with other starts (`--q`, `--v`) and steps.",
             )

@@ -53,6 +53,7 @@ pub(super) const VARY: Kind = Kind {
     option: "vary",
     example: "--vary 'payload = uniform(0, 2)'",
     forms: "write a distribution, `uniform(0, 2)`, `normal(1, 0.1)` or `loguniform(0.01, 1)`, or a number",
+    separates: false,
 };
 
 /// `--grid`
@@ -60,6 +61,7 @@ pub(super) const GRID: Kind = Kind {
     option: "grid",
     example: "--grid 'payload = 0, 0.5, 1'",
     forms: "write numbers, `0, 0.5, 1`, or so many at equal distances, `linspace(0, 1, 11)`",
+    separates: false,
 };
 
 impl Given {

@@ -145,3 +145,33 @@ fn a_motion_does_not_begin_where_there_is_no_acceleration() {
     let expected = "where the robot stands, at q = [0.0, 0.0, 0.0], it cannot move: M(q) is singular";
     assert!(complaint.contains(expected) && complaint.contains("by `--state`"), "{complaint}");
 }
+
+/// Its page has all else.
+#[test]
+fn a_robot_without_bodies_has_a_page_without_a_picture() {
+    let html = on("Root", &["report", "--q", "0.5", "--time", "0.5"]).ok();
+    for expected in ["There is nothing to draw: it has coordinates and energies", "<math", "A swing", "<svg"]
+    {
+        assert!(html.contains(expected), "{expected}");
+    }
+    for picture in ["class=\"bench\"", "Bodies with mass"] {
+        assert!(!html.contains(picture), "{picture}");
+    }
+    let simulate = ["simulate", "--time", "0.1", "--step", "0.01"];
+    let complaint = on("Root", &[&simulate[..], &["--animate", "no.html"]].concat()).failed(1);
+    assert!(complaint.contains("no body with a place") && complaint.contains("`--plot`"), "{complaint}");
+}
+
+/// A motion that leaves what has a root ends there, and what was computed before is written and drawn.
+#[test]
+fn a_motion_that_is_lost_is_drawn_to_its_end() {
+    let pictures = folder("absent_pictures");
+    let path = |name: &str| pictures.join(name).to_str().unwrap().to_owned();
+    let (svg, csv) = (path("lost.svg"), path("lost.csv"));
+    let simulate = ["simulate", "--time", "3", "--step", "0.01", "--q", "0.9", "--plot", &svg, "-o", &csv];
+    let complaint = on("Root", &simulate).failed(1);
+    let expected = ["the state is not finite, ", "s after the start: `5N * sqrt(1 - x^2)` has the root of -"];
+    assert!(expected.iter().all(|text| complaint.contains(text)), "{complaint}");
+    assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
+    assert!(std::fs::read_to_string(&csv).unwrap().lines().count() > 10);
+}

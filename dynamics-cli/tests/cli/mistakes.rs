@@ -211,3 +211,36 @@ fn a_file_that_cannot_be_read_line_by_line_is_named_all_the_same() {
     let complaint = dynamics(&["check", file.to_str().unwrap()]).failed(1);
     assert!(complaint.contains("long.urdf:1:") && complaint.len() < 600, "{complaint}");
 }
+
+#[test]
+fn what_cannot_be_written_says_what_can() {
+    let cart = model("cartpole");
+    let file = folder("unwritable").join("file");
+    std::fs::write(&file, "kept").unwrap();
+    let below = file.join("x.csv").to_str().unwrap().to_owned();
+    let missing = folder("unwritable_missing").join("no/x.csv").to_str().unwrap().to_owned();
+    let commands: [&[&str]; 5] = [
+        &["report", &cart, "-o"],
+        &["generate", &cart, "--lang", "rust", "-o"],
+        &["simulate", &cart, "--time", "1", "--step", "0.1", "-o"],
+        &["simulate", &cart, "--time", "1", "--step", "0.1", "--plot"],
+        &["rollouts", &cart, "--time", "1", "--step", "0.1", "--count", "1", "-o"],
+    ];
+    for command in commands {
+        for (path, expected) in
+            [(missing.as_str(), "make the folder first"), (&below, "give the path of a file in a folder")]
+        {
+            let complaint = dynamics(&[command, &[path]].concat()).failed(1);
+            assert!(complaint.contains(expected) && complaint.contains(path), "{command:?}: {complaint}");
+        }
+    }
+    assert!(dynamics(&["report", &cart, "-o", &cart]).failed(1).contains("give another file to be written"));
+    assert!(dynamics(&["report", &cart, "-o", "."]).failed(1).contains("a file in this folder"));
+    // Who is refused later has lost nothing: what was there is there, and what was not is not.
+    let new = folder("unwritable_new").join("x").to_str().unwrap().to_owned();
+    for path in [file.to_str().unwrap(), &new] {
+        dynamics(&["report", &cart, "--state", r#"{"q": {"hinge": 1e300}}"#, "--q", "x", "-o", path])
+            .failed(1);
+    }
+    assert!(std::fs::read_to_string(&file).unwrap() == "kept" && !std::fs::exists(&new).unwrap());
+}

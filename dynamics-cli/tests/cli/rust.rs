@@ -262,6 +262,65 @@ fn mistakes_are_shown_in_the_file() {
 }
 
 /// A mistake in the file that a struct names is shown there.
+/// What is wrong with a value that was given for a field names the value, its rule and what to do.
+#[test]
+fn wrong_values_of_fields_are_told_with_their_names() {
+    let file = "#[derive(Dynamics)]\n#[joint(q: revolute(y), world -> a)]\n\
+                #[body(a, com = [0, 0, -l], solid = sphere(m, r))]\nstruct P<T> { m: T, l: T, r: T, unused: T }";
+    for (value, expected) in [
+        ("m = 0", &["moves no mass", "<stdin>:2:9", "change `m = 0` in `--set`, or else give a body"][..]),
+        (
+            "m = -1kg, l = 0",
+            &["the mass of `a` is -1 kg", "change `m = -1kg` in `--set`, or else give a mass"],
+        ),
+        ("r = -1, m = -2", &["change `m = -2` in", "change `r = -1` in", "2 mistakes"]),
+        ("m = 1m, n = 3", &["`1m` has the unit m, and `m` kg", "no field `n`", "2 mistakes"]),
+        ("m = 1, m = 2", &["`m` is given values twice", "keep one"]),
+        ("m = inf", &["`inf` is no number", "--set:1:5"]),
+        ("m = 1e400", &["`1e400` is out of range", "between 1e-300 and 1e300"]),
+        ("m = 1/0", &["the divisor `0` is zero", "divide by something other"]),
+        ("m = sqrt(-1)", &["`-1` is negative, and has no root", "not negative"]),
+        ("m = 4 kg", &["a space is between the number `4` and its unit `kg`", "write `4kg`"]),
+        ("m = 2 r", &["found `r`", "write `* r` for a product"]),
+        ("m = 4lb", &["there is no unit `lb`", "use one of m, cm"]),
+        ("m = 1,5", &["`--set` has no `=`", "a point in a number"]),
+        ("m", &["`--set` has no `=`", "--set 'm1 = 4kg'"]),
+        ("m =", &["`m` is given no value"]),
+    ] {
+        let complaint = dynamics_on(file.as_bytes(), &["check", "-", "--set", value]).failed(1);
+        assert!(expected.iter().all(|text| complaint.contains(text)), "{value}: {complaint}");
+    }
+    // A value for what no equation has does no harm.
+    dynamics_on(file.as_bytes(), &["check", "-", "--set", "unused = 3"]).ok();
+    let complaint = dynamics_on(file.as_bytes(), &["eval", "-"]).failed(1);
+    assert!(complaint.contains("as by `--set 'm = 0.5, l = 0.5, r = 0.5'`"), "{complaint}");
+    let complaint = dynamics(&["check", "cartpole/model.urdf", "--set", "m = 1"]).failed(1);
+    assert!(
+        complaint.contains("no option uses `m`") && complaint.contains("--body 'load, mass = m'"),
+        "{complaint}"
+    );
+}
+
+/// Where a file stops being Rust is shown, and why.
+#[test]
+fn what_is_no_rust_is_shown_in_the_file() {
+    for (file, place, expected) in [
+        ("#[derive(Dynamics)]\nstruct A;\nfn f() { ( ]\n", ":3:12\n", "`]` is no partner of the last one"),
+        ("fn f() }", ":1:8\n", "`}` is no partner of the last one"),
+        ("// )\nfn f() {\n  let ü = [1, 2;\n", ":3:11\n", "`[` is never closed"),
+        ("let a = \"abc\nfoo", ":1:9\n", "with a quote has no end"),
+        ("let c = '\\u{110000}';", ":1:9\n", "or is no token"),
+        ("let x = 0b9;", ":1:9\n", "is no number"),
+        ("let x = \\;", ":1:9\n", "no token begins with `\\`"),
+    ] {
+        let complaint = dynamics_on(file.as_bytes(), &["check", "-", "--robot", "A"]).failed(1);
+        assert!(
+            complaint.contains(expected) && complaint.contains(&format!("<stdin>{place}")),
+            "{complaint}"
+        );
+    }
+}
+
 #[test]
 fn mistakes_in_a_urdf_of_a_struct_are_shown_in_it() {
     let file = a_crate("urdf_of_struct");

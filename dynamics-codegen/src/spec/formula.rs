@@ -100,8 +100,10 @@ impl Formula {
     /// Reads all of the cursor, in these words.
     pub(super) fn parse_in(mut input: Cursor, words: Words) -> Result<Self> {
         let formula = Self::sum(&mut input, words)?;
-        input.finish("the expression")?;
-        Ok(formula)
+        match input.is_empty() {
+            true => Ok(formula),
+            false => Err(after(&formula, input)),
+        }
     }
 
     /// Reads a sum, and stops at what cannot go on with it.
@@ -207,6 +209,17 @@ impl Formula {
         }
     }
 
+    /// The number without a unit at the end, as it is written.
+    fn last_literal(&self) -> Option<String> {
+        match &self.kind {
+            FormulaKind::Number(_, None) => Some(self.short_text()),
+            FormulaKind::Negative(inner) => inner.last_literal(),
+            FormulaKind::Sum(terms) => terms.last()?.formula.last_literal(),
+            FormulaKind::Product(factors) => factors.last()?.formula.last_literal(),
+            _ => None,
+        }
+    }
+
     /// The value of a literal without a unit, with the signs before it.
     pub fn bare_literal(&self) -> Option<Number> {
         match &self.kind {
@@ -214,6 +227,21 @@ impl Formula {
             FormulaKind::Negative(inner) => inner.bare_literal().map(|value| -value),
             _ => None,
         }
+    }
+}
+
+/// The mistake that an expression is followed by what does not go on with it.
+fn after(formula: &Formula, mut input: Cursor) -> Diagnostic {
+    let mistake = input.expected("an operator or the end of the expression");
+    let Some(word) = input.ident().map(|ident| ident.to_string()) else { return mistake };
+    match formula.last_literal() {
+        Some(number) if Unit::named(&word).is_some() => {
+            let message = format!("a space is between the number `{number}` and its unit `{word}`");
+            Diagnostic::new(Code::Syntax, &mistake.place, message).help(format!("write `{number}{word}`"))
+        }
+        // The next key of the attribute.
+        _ if input.peek_punct() == Some('=') => mistake.help(format!("write a comma before `{word}`")),
+        _ => mistake.help(format!("write `* {word}` for a product")),
     }
 }
 
