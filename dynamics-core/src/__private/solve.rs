@@ -325,7 +325,7 @@ fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut
 
 /// Copies what is below the diagonal to above it.
 #[inline]
-fn mirror<T: Scalar, const N: usize>(m: &mut [[T; N]; N]) {
+pub(crate) fn mirror<T: Scalar, const N: usize>(m: &mut [[T; N]; N]) {
     for block in 0..N / STRIP {
         let Some((_, blocks)) = m.split_at_mut_checked(block * STRIP) else { continue };
         let Some((columns, beyond)) = blocks.split_first_chunk_mut::<STRIP>() else { continue };
@@ -350,7 +350,7 @@ fn mirror<T: Scalar, const N: usize>(m: &mut [[T; N]; N]) {
 }
 
 /// Four columns of four rows.
-type Tile<T> = [[T; STRIP]; STRIP];
+pub(crate) type Tile<T> = [[T; STRIP]; STRIP];
 
 #[inline(always)]
 fn tile<T: Scalar, const N: usize>(columns: &[[T; N]; STRIP], strip: usize) -> Tile<T> {
@@ -369,7 +369,9 @@ fn write_tile<T: Scalar, const N: usize>(columns: &mut [[T; N]; STRIP], strip: u
 
 /// Entry by entry: loops would become gathers.
 #[inline(always)]
-fn transposed<T>([[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]: Tile<T>) -> Tile<T> {
+pub(crate) fn transposed<T: Scalar>(
+    [[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]: Tile<T>,
+) -> Tile<T> {
     [[a, e, i, m], [b, f, j, n], [c, g, k, o], [d, h, l, p]]
 }
 

@@ -34,27 +34,25 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         }
     }
 
-    /// The links' own moments in world axes.
-    pub(super) fn moments(&self, placed: &Placed<T, N>) -> MomentsInLanes<T, N> {
+    /// Writes the links' own moments in world axes.
+    pub(super) fn moments(&self, placed: &Placed<T, N>, moments: &mut MomentsInLanes<T, N>) {
         let masses = &self.tree.masses;
-        let mut moments =
-            MomentsInLanes { mass: masses.mass, first: Vectors::zero(), second: [[T::zero(); N]; 6] };
-        let (first, second) = (Vectors(masses.first), masses.second);
+        moments.mass = masses.mass;
+        let [x, y, z] = &masses.first;
         for k in 0..N {
             let rotation = placed.rotation(k);
-            let half = rotation.product(Matrix::symmetric(six_at(&second, k))).0.map(Vector);
+            let half = rotation.product(Matrix::symmetric(six_at(&masses.second, k))).0.map(Vector);
             let axes = rotation.0.map(Vector);
             let entry = |i: usize, j: usize| match (half.get(i), axes.get(j)) {
                 (Some(a), Some(b)) => a.dot(*b),
                 _ => T::zero(),
             };
             let turned = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
-            moments.first.set(k, rotation.times(first.at(k)));
+            moments.first.set(k, rotation.times(Vector([at(x, k), at(y, k), at(z, k)])));
             for (x, value) in moments.second.iter_mut().zip(turned) {
                 set(x, k, value);
             }
         }
-        moments
     }
 }
 
@@ -92,6 +90,10 @@ pub(super) struct MomentsInLanes<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> MomentsInLanes<T, N> {
+    pub(super) fn zero() -> Self {
+        Self { mass: [T::zero(); N], first: Vectors::zero(), second: [[T::zero(); N]; 6] }
+    }
+
     #[inline(always)]
     pub(super) fn at(&self, k: usize) -> Moments<T> {
         Moments::read(self, k)
@@ -230,6 +232,12 @@ pub(super) struct WrenchesInLanes<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> WrenchesInLanes<T, N> {
+    /// The moments, then the forces.
+    #[inline(always)]
+    pub(super) fn both(&self) -> (&Vectors<T, N>, &Vectors<T, N>) {
+        (&self.moments, &self.forces)
+    }
+
     pub(super) fn zero() -> Self {
         Self { moments: Vectors::zero(), forces: Vectors::zero() }
     }

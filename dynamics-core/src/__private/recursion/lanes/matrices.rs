@@ -17,8 +17,10 @@ use crate::scalar::Scalar;
 impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     /// The mass matrix `M(q)`, both halves, with the armatures.
     pub fn mass_matrix(&self, q: &SVector<T, N>) -> SMatrix<T, N, N> {
-        let placed = self.place(entries(q));
-        let mut moments = self.moments(&placed);
+        let mut placed = Placed::zero();
+        self.place(entries(q), &mut placed);
+        let mut moments = MomentsInLanes::zero();
+        self.moments(&placed, &mut moments);
         self.collect::<Moments<T>>(&placed.offsets, &mut moments);
         let mut m = zeros();
         self.pairs(&placed, &rows(&placed, &moments)).write_mass_matrix(&mut m.data.0);
@@ -28,7 +30,8 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
 
     /// The Coriolis matrix `C(q,v)`: Levi-Civita's, without passive forces.
     pub fn coriolis_matrix(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> SMatrix<T, N, N> {
-        let placed = self.place(entries(q));
+        let mut placed = Placed::zero();
+        self.place(entries(q), &mut placed);
         let velocities = self.velocities(&placed, entries(v));
         let composites = self.composites(&placed, &velocities);
         let mut c = zeros();
@@ -40,7 +43,8 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
 
     /// `M`, `C` and `G`.
     pub fn equations_of_motion(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> EquationsOfMotion<T, N> {
-        let placed = self.place(entries(q));
+        let mut placed = Placed::zero();
+        self.place(entries(q), &mut placed);
         let velocities = self.velocities(&placed, entries(v));
         let composites = self.composites(&placed, &velocities);
         let upwards = Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) };
@@ -70,10 +74,12 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         v: &SVector<T, N>,
         a: &SVector<T, N>,
     ) -> InverseDynamicsDerivatives<T, N> {
-        let placed = self.place(entries(q));
+        let mut placed = Placed::zero();
+        self.place(entries(q), &mut placed);
         let (velocities, accelerations) = self.motions(&placed, entries(v), entries(a));
-        let mut bodies = ((self.moments(&placed), MomentaInLanes::zero()), WrenchesInLanes::zero());
+        let mut bodies = ((MomentsInLanes::zero(), MomentaInLanes::zero()), WrenchesInLanes::zero());
         let (composites, wrenches) = &mut bodies;
+        self.moments(&placed, &mut composites.0);
         set_momenta(composites, &velocities);
         set_wrenches(&composites.0, &velocities, &accelerations, wrenches);
         self.collect::<((Moments<T>, Momenta<T>), Wrench<T>)>(&placed.offsets, &mut bodies);
@@ -98,7 +104,8 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
 
     /// 𝕁 and 𝔹 of all that hangs on each joint.
     fn composites(&self, placed: &Placed<T, N>, velocities: &TwistsInLanes<T, N>) -> Composites<T, N> {
-        let mut composites = (self.moments(placed), MomentaInLanes::zero());
+        let mut composites = (MomentsInLanes::zero(), MomentaInLanes::zero());
+        self.moments(placed, &mut composites.0);
         set_momenta(&mut composites, velocities);
         self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, &mut composites);
         composites

@@ -13,6 +13,12 @@ pub(super) struct TwistsInLanes<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> TwistsInLanes<T, N> {
+    /// The linear, then the angular.
+    #[inline(always)]
+    pub(super) fn both(&self) -> (&Vectors<T, N>, &Vectors<T, N>) {
+        (&self.linear, &self.angular)
+    }
+
     pub(super) fn zero() -> Self {
         Self { angular: Vectors::zero(), linear: Vectors::zero() }
     }
@@ -30,6 +36,12 @@ impl<T: Scalar, const N: usize> TwistsInLanes<T, N> {
 }
 
 impl<T: Scalar, const N: usize> Placed<T, N> {
+    /// The unit motions of all joints: their slides, then their turns.
+    #[inline(always)]
+    pub(super) fn unit_twists(&self) -> (&Vectors<T, N>, &Vectors<T, N>) {
+        (&self.slides, &self.turns)
+    }
+
     /// The unit motion of joint `k`.
     #[inline(always)]
     pub(super) fn twist(&self, k: usize) -> Twist<T> {

@@ -1,21 +1,15 @@
-//! Entries for pairs of joints, one of which hangs on the other: four outer joints at a time.
+//! Entries for pairs of joints, one of which hangs on the other: products of matrices with six or nine numbers a joint.
 //!
-//! All wrenches on the four are counted from the origin of the first of them; what the joints nearer to the base do
-//! there is worked out once for all four. Rows of inner joints run in lanes over these, rows of outer joints in lanes
-//! over the four. The last group is moved back until it ends where the matrix does.
-
-use core::array::from_fn;
+//! For a few columns at a time all wrenches and twists are counted from the origin of the first of their joints.
 
 use super::bodies::WrenchesInLanes;
 use super::motion::TwistsInLanes;
 use super::place::Placed;
-use super::{InLanes, Vectors, at, set};
-use crate::__private::recursion::screw::{Twist, Wrench};
+use super::{InLanes, Vectors, set};
 use crate::__private::recursion::vector::Vector;
+use crate::__private::solve::mirror;
+use crate::product::{COLUMNS, STRIP, multiply, strips};
 use crate::scalar::Scalar;
-
-/// How many joints make a group.
-const GROUP: usize = 4;
 
 /// A matrix, by columns.
 pub(super) type Square<T, const N: usize> = [[T; N]; N];
@@ -39,164 +33,181 @@ impl<T: Scalar, const N: usize> Changes<T, N> {
 
 /// The pairs of a robot at a configuration.
 pub(super) struct Pairs<'a, T, const N: usize> {
+    robot: &'a InLanes<'a, T, N>,
     placed: &'a Placed<T, N>,
     /// The wrenches of unit motions.
     rows: &'a WrenchesInLanes<T, N>,
-    /// The last of all that hangs on each joint, or the joint itself.
-    ends: [usize; N],
-    /// Whether some joint does not hang on the one before it.
-    has_branches: bool,
 }
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<'r, T: Scalar, const N: usize> InLanes<'r, T, N> {
     pub(super) fn pairs<'a>(
-        &self,
+        &'a self,
         placed: &'a Placed<T, N>,
         rows: &'a WrenchesInLanes<T, N>,
-    ) -> Pairs<'a, T, N> {
-        let mut ends = from_fn(|k| k);
-        let mut has_branches = false;
-        for k in (0..N).rev() {
-            let end = ends.get(k).copied().unwrap_or(k);
-            has_branches |= self.parent(k) != k.checked_sub(1);
-            if let Some(parent) = self.parent(k).and_then(|parent| ends.get_mut(parent)) {
-                *parent = end.max(*parent);
-            }
-        }
-        Pairs { placed, rows, ends, has_branches }
+    ) -> Pairs<'a, T, N>
+    where
+        'r: 'a,
+    {
+        Pairs { robot: self, placed, rows }
     }
 }
-
-/// Four joints, and what is asked of them at the origin of the first.
-struct Group<T> {
-    first: usize,
-    origin: Vector<T>,
-}
-
-/// Values for the four joints of a group, each for four joints nearer to the base in lanes.
-type Tile<T> = [[T; GROUP]; GROUP];
 
 impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// Writes `M`, both halves.
     pub(super) fn write_mass_matrix(&self, m: &mut Square<T, N>) {
-        for block in 0..N.div_ceil(GROUP) {
-            let group = self.group(block);
-            let rows = self.about(&group, self.rows);
-            for inner in 0..=block {
-                let first = start::<N>(inner);
-                let mut tile = [[T::zero(); GROUP]; GROUP];
-                for lane in 0..GROUP {
-                    let twist = self.carried(self.placed.twist(first + lane), first + lane, &group);
-                    for (lanes, row) in tile.iter_mut().zip(&rows) {
-                        set(lanes, lane, twist.dot(*row));
-                    }
-                }
-                self.write(m, &group, first, &tile, &tile);
-            }
+        let mut rows = with_last([[T::zero(); N]; 6], self.rows.both().1);
+        let (blocks, rest) = m.as_chunks_mut::<COLUMNS>();
+        for (block, columns) in blocks.iter_mut().enumerate() {
+            self.write_masses(&mut rows, block * COLUMNS, columns);
         }
+        for (k, column) in rest.iter_mut().enumerate() {
+            self.write_masses(&mut rows, N / COLUMNS * COLUMNS + k, core::array::from_mut(column));
+        }
+        mirror(m);
+        self.clear_between_branches(m);
+    }
+
+    /// The same of the columns from `first` on, from their first row on.
+    #[inline(always)]
+    fn write_masses<const W: usize>(&self, rows: &mut [[T; N]; 6], first: usize, columns: &mut [[T; N]; W]) {
+        let origin = self.placed.origins.at(first);
+        self.shift(self.rows.both(), origin, rows);
+        let units: [_; 6] = self.shifted(self.placed.unit_twists(), first, origin);
+        let factors = |k: usize| units.get(k).copied().unwrap_or([T::zero(); W]);
+        multiply::<T, false, _, _, _>(&*rows, factors, |_| 0..6, first / STRIP..strips(N), columns);
     }
 
     /// Writes `tr(Ŝ_i (𝕁 t̂_jᵀ + 𝔹 r̂_jᵀ))` for the twists `t` and turns `r` of the changes; `nu` has what their turns
     /// are multiplied with.
     pub(super) fn write_changes(&self, changes: &Changes<T, N>, nu: &Vectors<T, N>, m: &mut Square<T, N>) {
-        for block in 0..N.div_ceil(GROUP) {
-            let group = self.group(block);
-            let (rows, columns) = (self.about(&group, self.rows), self.about(&group, &changes.wrenches));
-            let mut nus = [Vector::zero(); GROUP];
-            for (j, own) in nus.iter_mut().enumerate() {
-                *own = nu.at(group.first + j);
-            }
-            for inner in 0..=block {
-                let first = start::<N>(inner);
-                let (mut above, mut below) = ([[T::zero(); GROUP]; GROUP], [[T::zero(); GROUP]; GROUP]);
-                for lane in 0..GROUP {
-                    let twist = self.carried(self.placed.twist(first + lane), first + lane, &group);
-                    for (lanes, column) in above.iter_mut().zip(&columns) {
-                        set(lanes, lane, twist.dot(*column));
-                    }
-                }
-                for lane in 0..GROUP {
-                    let change = self.carried(changes.twists.at(first + lane), first + lane, &group);
-                    let turn = changes.turns.at(first + lane);
-                    for (lanes, (row, nu)) in below.iter_mut().zip(rows.iter().zip(&nus)) {
-                        set(lanes, lane, turn.dot(*nu) + change.dot(*row));
-                    }
-                }
-                self.write(m, &group, first, &above, &below);
+        let mut below = with_last([[T::zero(); N]; 9], nu);
+        for (all, force) in below.iter_mut().skip(3).zip(&self.rows.both().1.0) {
+            *all = *force;
+        }
+        let mut above = with_last([[T::zero(); N]; 6], self.placed.unit_twists().1);
+        let (blocks, rest) = m.as_chunks_mut::<COLUMNS>();
+        for (block, columns) in blocks.iter_mut().enumerate() {
+            self.write_columns(changes, [&mut below, &mut above], block * COLUMNS, columns);
+        }
+        for (k, column) in rest.iter_mut().enumerate() {
+            let column = core::array::from_mut(column);
+            self.write_columns(changes, [&mut below, &mut above], N / COLUMNS * COLUMNS + k, column);
+        }
+        self.clear_between_branches(m);
+    }
+
+    /// The same of the columns from `first` on.
+    #[inline(always)]
+    fn write_columns<const W: usize>(
+        &self,
+        changes: &Changes<T, N>,
+        [below, above]: [&mut [[T; N]]; 2],
+        first: usize,
+        columns: &mut [[T; N]; W],
+    ) {
+        let origin = self.placed.origins.at(first);
+        let start = first / STRIP;
+        // On the diagonal and below it.
+        self.shift(self.rows.both(), origin, below);
+        let mut moving: [[T; W]; 9] = self.shifted(changes.twists.both(), first, origin);
+        for (all, turns) in moving.iter_mut().skip(6).zip(&changes.turns.0) {
+            *all = part(turns, first);
+        }
+        let factors = |k: usize| moving.get(k).copied().unwrap_or([T::zero(); W]);
+        multiply::<T, false, _, _, _>(&*below, factors, |_| 0..9, start..strips(N), columns);
+        // Above it; what is in the same strips as what is not is computed apart.
+        self.shift(self.placed.unit_twists(), origin, above);
+        let forcing: [_; 6] = self.shifted(changes.wrenches.both(), first, origin);
+        let factors = |k: usize| forcing.get(k).copied().unwrap_or([T::zero(); W]);
+        multiply::<T, false, _, _, _>(&*above, factors, |_| 0..6, 0..start, columns);
+        let mut near = [[T::zero(); COLUMNS]; W];
+        let mut of_near = [[T::zero(); COLUMNS]; 6];
+        for (of_near, row) in of_near.iter_mut().zip(&*above) {
+            *of_near = part(row, start * STRIP);
+        }
+        multiply::<T, false, _, _, _>(&of_near, factors, |_| 0..6, 0..strips(COLUMNS), &mut near);
+        for (j, (column, near)) in columns.iter_mut().zip(&near).enumerate() {
+            for (entry, value) in column.iter_mut().skip(start * STRIP).zip(near).take(first % STRIP + j) {
+                *entry = *value;
             }
         }
     }
 
-    /// Four joints; the last four are moved back until they end where the matrix does.
+    /// Writes the moments of wrenches, or the slides of twists, about a common origin into the first three rows: with
+    /// the forces, or the turns, `own + p × other`.
     #[inline(always)]
-    fn group(&self, block: usize) -> Group<T> {
-        let first = start::<N>(block);
-        Group { first, origin: self.placed.origins.at(first) }
-    }
-
-    /// The wrenches on the group's joints, about its origin.
-    #[inline(always)]
-    fn about(&self, group: &Group<T>, wrenches: &WrenchesInLanes<T, N>) -> [Wrench<T>; GROUP] {
-        let mut about = [Wrench::zero(); GROUP];
-        for (j, wrench) in about.iter_mut().enumerate() {
-            let k = group.first + j;
-            *wrench = wrenches.at(k).shifted(self.placed.origins.at(k) - group.origin);
+    fn shift(&self, (own, other): (&Vectors<T, N>, &Vectors<T, N>), origin: Vector<T>, rows: &mut [[T; N]]) {
+        let [x, y, z, ..] = rows else { return };
+        for k in 0..N {
+            let arm = self.placed.origins.at(k) - origin;
+            let Vector(moved) = own.at(k) + arm.cross(other.at(k));
+            for (all, value) in [&mut *x, y, z].into_iter().zip(moved) {
+                set(all, k, value);
+            }
         }
-        about
     }
 
-    /// A twist about the origin of joint `k`, about the group's.
+    /// The same of the W joints from `first` on; those that do not change come first.
     #[inline(always)]
-    fn carried(&self, twist: Twist<T>, k: usize, group: &Group<T>) -> Twist<T> {
-        twist.carried(group.origin - self.placed.origins.at(k))
+    fn shifted<const W: usize, const K: usize>(
+        &self,
+        (own, other): (&Vectors<T, N>, &Vectors<T, N>),
+        first: usize,
+        origin: Vector<T>,
+    ) -> [[T; W]; K] {
+        let mut columns = [[T::zero(); W]; K];
+        for j in 0..W {
+            let (k, Vector(same)) = (first + j, other.at(first + j));
+            let arm = self.placed.origins.at(k) - origin;
+            let Vector(moved) = own.at(k) + arm.cross(other.at(k));
+            for (all, value) in columns.iter_mut().zip(same.into_iter().chain(moved)) {
+                set(all, j, value);
+            }
+        }
+        columns
     }
 
-    /// Writes the rows of four inner joints into the group's columns, and the group's rows into those of the inner
-    /// joints: all at once if all pairs are pairs, else what is above the diagonal, and what is not.
-    #[inline(always)]
-    fn write(&self, m: &mut Square<T, N>, group: &Group<T>, first: usize, above: &Tile<T>, below: &Tile<T>) {
-        let last = group.first + GROUP - 1;
-        let hangs = |k: usize, i: usize| i <= k && self.ends.get(i).is_some_and(|&end| end >= k);
-        if first + GROUP <= group.first
-            && (!self.has_branches || (first..first + GROUP).all(|i| hangs(last, i)))
-        {
-            for (j, lanes) in above.iter().enumerate() {
-                if let Some(part) = m.get_mut(group.first + j).and_then(|c| c.get_mut(first..first + GROUP)) {
-                    part.copy_from_slice(lanes);
-                }
-            }
-            let [a, b, c, d] = below;
-            for lane in 0..GROUP {
-                let values = [at(a, lane), at(b, lane), at(c, lane), at(d, lane)];
-                let part = m.get_mut(first + lane).and_then(|c| c.get_mut(group.first..group.first + GROUP));
-                if let Some(part) = part {
-                    part.copy_from_slice(&values);
-                }
-            }
+    /// Writes zeros for joints of which neither hangs on the other.
+    fn clear_between_branches(&self, m: &mut Square<T, N>) {
+        if (0..N).all(|k| self.robot.parent(k) == k.checked_sub(1)) {
             return;
         }
-        for (j, (above, below)) in above.iter().zip(below).enumerate() {
-            let k = group.first + j;
-            for (lane, (above, below)) in above.iter().zip(below).enumerate() {
-                let i = first + lane;
-                if !hangs(k, i) {
+        for k in 0..N {
+            let mut on_the_way = self.robot.parent(k);
+            for i in (0..k).rev() {
+                if on_the_way == Some(i) {
+                    on_the_way = self.robot.parent(i);
                     continue;
                 }
-                if let Some(entry) = m.get_mut(i).and_then(|column| column.get_mut(k)) {
-                    *entry = *below;
-                }
-                if i < k
-                    && let Some(entry) = m.get_mut(k).and_then(|column| column.get_mut(i))
-                {
-                    *entry = *above;
+                for (column, row) in [(i, k), (k, i)] {
+                    if let Some(entry) = m.get_mut(column).and_then(|column| column.get_mut(row)) {
+                        *entry = T::zero();
+                    }
                 }
             }
         }
     }
 }
 
-/// Where the block of joints begins.
+/// The rows, the last three being these.
 #[inline(always)]
-fn start<const N: usize>(block: usize) -> usize {
-    (block * GROUP).min(N.saturating_sub(GROUP))
+fn with_last<T: Scalar, const N: usize, const K: usize>(
+    mut rows: [[T; N]; K],
+    last: &Vectors<T, N>,
+) -> [[T; N]; K] {
+    for (row, last) in rows.iter_mut().rev().zip(last.0.iter().rev()) {
+        *row = *last;
+    }
+    rows
+}
+
+/// K numbers from `first` on; zeros where there are fewer.
+#[inline(always)]
+fn part<T: Scalar, const N: usize, const K: usize>(x: &[T; N], first: usize) -> [T; K] {
+    let rest = x.get(first..).unwrap_or_default();
+    rest.first_chunk().copied().unwrap_or_else(|| {
+        let mut part = [T::zero(); K];
+        part.iter_mut().zip(rest).for_each(|(part, x)| *part = *x);
+        part
+    })
 }

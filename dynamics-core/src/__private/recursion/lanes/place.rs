@@ -17,37 +17,41 @@ pub(super) struct Placed<T, const N: usize> {
     pub(super) slides: Vectors<T, N>,
 }
 
+/// Three numbers and one that stays zero: a register, in lanes.
+type Four<T> = [T; 4];
+
+/// Where a link is: what its rotation does to x, y and z, and its origin.
+#[derive(Clone, Copy)]
+struct Place<T> {
+    axes: [Four<T>; 3],
+    origin: Four<T>,
+}
+
 impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
-    pub(super) fn place(&self, q: &[T; N]) -> Placed<T, N> {
-        let mut placed = Placed {
-            axes: [Vectors::zero(); 3],
-            offsets: [Vector::zero(); N],
-            origins: Vectors::zero(),
-            turns: Vectors::zero(),
-            slides: Vectors::zero(),
-        };
+    /// Writes where they are, into zeros: what functions return is copied.
+    #[inline]
+    pub(super) fn place(&self, q: &[T; N], placed: &mut Placed<T, N>) {
         // Whether joints turn, as a factor: lanes do not branch.
         let (mut turns, mut slides) = ([T::zero(); N], [T::zero(); N]);
         for k in 0..N {
             set(if self.turns(k) { &mut turns } else { &mut slides }, k, T::one());
         }
-        let (mut sines, mut cosines) = ([T::zero(); N], [T::zero(); N]);
-        for k in 0..N {
-            let (sine, cosine) = (at(q, k) * at(&turns, k)).sin_cos();
-            set(&mut sines, k, sine);
-            set(&mut cosines, k, cosine);
+        let mut angles = *q;
+        for (angle, turns) in angles.iter_mut().zip(&turns) {
+            *angle *= *turns;
         }
-        self.place_one_by_one(&sines, &cosines, q, &slides, &mut placed);
+        let [sines, cosines] = T::sin_cos_each(angles);
+        self.place_one_by_one(&sines, &cosines, q, &slides, placed);
         for k in 0..N {
             let [.., z] = &placed.axes;
             let z = z.at(k);
             placed.turns.set(k, z.scaled(at(&turns, k)));
             placed.slides.set(k, z.scaled(at(&slides, k)));
         }
-        placed
     }
 
     /// From the base to the tips; where a link follows its parent at once, the parent's pose is still in registers.
+    #[inline(always)]
     fn place_one_by_one(
         &self,
         sines: &[T; N],
@@ -56,30 +60,69 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         slides: &[T; N],
         placed: &mut Placed<T, N>,
     ) {
-        let world = (Matrix::identity(), Vector::zero());
-        let mut last = (N, world);
+        let (o, i) = (T::zero(), T::one());
+        let world = Place { axes: [[i, o, o, o], [o, i, o, o], [o, o, i, o]], origin: [o; 4] };
+        let mut last = world;
         for (k, link) in self.tree.links.iter().enumerate() {
-            let (parent, origin) = match link.parent {
+            let parent = match link.parent {
                 None => world,
-                Some(parent) if parent == last.0 => last.1,
-                Some(parent) => (placed.rotation(parent), placed.origins.at(parent)),
+                Some(parent) if parent + 1 == k => last,
+                Some(parent) => placed.place(parent),
             };
             let own = Matrix(link.rotation);
-            let rotation = parent.product(own.about_z(at(sines, k), at(cosines, k)));
             let along = own.third_column().scaled(at(q, k) * at(slides, k));
-            let offset = parent.times(Vector(link.position) + along);
-            let origin = origin + offset;
-            for (all, axis) in placed.axes.iter_mut().zip(rotation.transpose().0) {
-                all.set(k, Vector(axis));
+            let [x, y, z] = own.about_z(at(sines, k), at(cosines, k)).transpose().0;
+            let offset = combined(&parent.axes, (Vector(link.position) + along).0);
+            let mut origin = parent.origin;
+            for (x, y) in origin.iter_mut().zip(offset) {
+                *x += y;
             }
-            set(&mut placed.offsets, k, offset);
-            placed.origins.set(k, origin);
-            last = (k, (rotation, origin));
+            let (x, y, z) = (combined(&parent.axes, x), combined(&parent.axes, y), combined(&parent.axes, z));
+            last = Place { axes: [x, y, z], origin };
+            placed.write(k, &last);
+            let [x, y, z, _] = offset;
+            set(&mut placed.offsets, k, Vector([x, y, z]));
         }
     }
 }
 
+/// `x·a + y·b + z·c` for the axes a, b and c.
+#[inline(always)]
+fn combined<T: Scalar>([a, b, c]: &[Four<T>; 3], [x, y, z]: [T; 3]) -> Four<T> {
+    let mut sum = [T::zero(); 4];
+    for (((sum, a), b), c) in sum.iter_mut().zip(a).zip(b).zip(c) {
+        *sum = a.mul_add(x, b.mul_add(y, *c * z));
+    }
+    sum
+}
+
 impl<T: Scalar, const N: usize> Placed<T, N> {
+    pub(super) fn zero() -> Self {
+        Self {
+            axes: [Vectors::zero(); 3],
+            offsets: [Vector::zero(); N],
+            origins: Vectors::zero(),
+            turns: Vectors::zero(),
+            slides: Vectors::zero(),
+        }
+    }
+
+    #[inline(always)]
+    fn write(&mut self, k: usize, place: &Place<T>) {
+        let vector = |[x, y, z, _]: Four<T>| Vector([x, y, z]);
+        for (all, axis) in self.axes.iter_mut().zip(place.axes) {
+            all.set(k, vector(axis));
+        }
+        self.origins.set(k, vector(place.origin));
+    }
+
+    #[inline(always)]
+    fn place(&self, k: usize) -> Place<T> {
+        let four = |Vector([x, y, z]): Vector<T>| [x, y, z, T::zero()];
+        let [x, y, z] = &self.axes;
+        Place { axes: [four(x.at(k)), four(y.at(k)), four(z.at(k))], origin: four(self.origins.at(k)) }
+    }
+
     /// From the link's axes to the world's.
     #[inline(always)]
     pub(super) fn rotation(&self, k: usize) -> Matrix<T> {
