@@ -1,8 +1,8 @@
 //! How a polynomial in sines and cosines of some angles is written shortest.
 //!
 //! Modulo `sin² + cos² = 1` there are many ways. Those that are tried: powers of each angle, with `sin²` or `cos²`,
-//! whichever leaves fewer terms; all products as sines of sums; and the sum of two angles, or their difference, in place
-//! of one of them. What is shortest is taken, the first of equals.
+//! whichever leaves fewer terms; powers of a multiple of an angle; all products as sines of sums; and the sum of two
+//! angles, or their difference, in place of one of them. What is shortest is taken, the first of equals.
 
 use std::collections::BTreeMap;
 
@@ -21,23 +21,28 @@ type Sum = BTreeMap<Powers, Number>;
 /// Products of more sines than this are not turned into sums.
 const DEGREE: i32 = 6;
 
-/// Polynomials with more terms than this are written as they are.
+/// Polynomials with more terms than this, all of them in the same angles, are written as they are.
 const TERMS: usize = 24;
+
+/// Products of more sines than [`DEGREE`] are tried as sums, but for those of more sines than this,
+const HIGH_DEGREE: i32 = 20;
+
+/// and polynomials with more terms.
+const MANY: usize = 100;
 
 /// The shortest way to write a polynomial in sines and cosines of `angles`, in which no sine has a square.
 pub(super) fn shortest(angles: &[usize], terms: Vec<(Powers, Number)>) -> Vec<Term> {
     let own: Vec<Angle> = angles.iter().map(|&angle| vec![(angle, 1)]).collect();
     let sum: Sum = terms.into_iter().collect();
     let has_quotient = sum.keys().flatten().any(|[s, c]| *s < 0 || *c < 0);
-    if has_quotient || sum.len() > TERMS {
-        return sum.iter().map(|(powers, k)| (*k, factors(powers, &own))).collect();
+    if has_quotient {
+        return as_they_are(&sum, &own);
+    }
+    if sum.len() > TERMS || degree(&sum) > DEGREE {
+        return shortest_of_many(&own, &sum);
     }
     let mut best = by_powers(&own, &sum, None);
     if best.len() < 2 {
-        return best;
-    }
-    let degree = sum.keys().map(|powers| powers.iter().flatten().sum::<i32>()).max().unwrap_or(0);
-    if degree > DEGREE {
         return best;
     }
     let mut try_this = |other: Vec<Term>| {
@@ -46,6 +51,7 @@ pub(super) fn shortest(angles: &[usize], terms: Vec<(Powers, Number)>) -> Vec<Te
         }
     };
     for k in 0..angles.len() {
+        of_multiples(&own, &sum, k).into_iter().for_each(&mut try_this);
         if angles.len() > 1
             && let Some(even) = homogeneous(&sum, k)
         {
@@ -68,7 +74,7 @@ pub(super) fn shortest(angles: &[usize], terms: Vec<(Powers, Number)>) -> Vec<Te
                     frequency[j] = if reversed { -frequency[j] } else { frequency[j] };
                     ((frequency, *is_cos), k)
                 });
-                let Some(moved) = powers_of(moved) else { continue };
+                let Some(moved) = powers_of(moved, DEGREE) else { continue };
                 let mut angles = own.clone();
                 let (first, second) = if reversed { (i, j) } else { (j, i) };
                 angles[j] = added(&own[first], &own[second], sign);
@@ -77,6 +83,90 @@ pub(super) fn shortest(angles: &[usize], terms: Vec<(Powers, Number)>) -> Vec<Te
         }
     }
     best
+}
+
+/// The same of many terms or high powers: as sines of multiples, what has the same angles by itself.
+fn shortest_of_many(own: &[Angle], sum: &Sum) -> Vec<Term> {
+    let as_it_is = if sum.len() > TERMS { as_they_are(sum, own) } else { by_powers(own, sum, None) };
+    if sum.len() > MANY || degree(sum) > HIGH_DEGREE {
+        return as_it_is;
+    }
+    let mut parts: BTreeMap<Vec<bool>, Waves> = BTreeMap::new();
+    for ((frequency, is_cos), k) in waves(sum) {
+        let used = frequency.iter().map(|n| *n != 0).collect();
+        parts.entry(used).or_default().insert((frequency, is_cos), k);
+    }
+    let of_part = |part: Waves| {
+        let by_units = in_units(own, &part);
+        let by_multiples = powers_of(part.iter().map(|(wave, &k)| (wave.clone(), k)), HIGH_DEGREE);
+        let by_multiples = by_multiples.filter(|sum| sum.len() <= TERMS).and_then(|sum| {
+            (0..own.len()).filter_map(|k| of_multiples(own, &sum, k)).min_by_key(|terms| length(terms))
+        });
+        let others = by_units.into_iter().chain(by_multiples);
+        std::iter::once(waves_as_terms(own, &part)).chain(others).min_by_key(|terms| length(terms))
+    };
+    let by_parts: Vec<Term> = parts.into_values().filter_map(of_part).flatten().collect();
+    if length(&by_parts) < length(&as_it_is) { by_parts } else { as_it_is }
+}
+
+/// Waves as products of powers, the unit of each angle being what all of its frequencies are multiples of.
+fn in_units(own: &[Angle], waves: &Waves) -> Option<Vec<Term>> {
+    let unit =
+        |k: usize| waves.keys().fold(0, |divisor, (frequency, _)| gcd(divisor, frequency[k].abs())).max(1);
+    let units: Vec<i32> = (0..own.len()).map(unit).collect();
+    let slower = waves.iter().map(|((frequency, is_cos), &k)| {
+        let frequency = frequency.iter().zip(&units).map(|(n, unit)| n / unit).collect();
+        ((frequency, *is_cos), k)
+    });
+    let scaled = |(angle, unit): (&Angle, &i32)| angle.iter().map(|&(place, n)| (place, n * unit)).collect();
+    let angles: Vec<Angle> = own.iter().zip(&units).map(scaled).collect();
+    Some(by_powers(&angles, &powers_of(slower, DEGREE)?, None))
+}
+
+fn degree(sum: &Sum) -> i32 {
+    sum.keys().map(|powers| powers.iter().flatten().sum::<i32>()).max().unwrap_or(0)
+}
+
+fn as_they_are(sum: &Sum, angles: &[Angle]) -> Vec<Term> {
+    sum.iter().map(|(powers, k)| (*k, factors(powers, angles))).collect()
+}
+
+/// Powers of one angle times those of a multiple of it: `sin θ cos² 4θ`, if all frequencies but those of common factors
+/// are multiples.
+fn of_multiples(own: &[Angle], sum: &Sum, k: usize) -> Option<Vec<Term>> {
+    let common = [0, 1].map(|kind| sum.keys().map(|powers| powers[k][kind]).min().unwrap_or(0));
+    let without = |(powers, coefficient): (&Powers, &Number)| {
+        let mut powers = powers.clone();
+        powers[k] = [powers[k][0] - common[0], powers[k][1] - common[1]];
+        (powers, *coefficient)
+    };
+    let waves = waves(&sum.iter().map(without).collect());
+    let divisor = waves.keys().fold(0, |divisor, (frequency, _)| gcd(divisor, frequency[k].abs()));
+    let units = [divisor / 2, divisor].into_iter().filter(|unit| *unit > 1 && divisor % unit == 0);
+    let written = units.filter_map(|unit| {
+        let slower = waves.iter().map(|((frequency, is_cos), &coefficient)| {
+            let mut frequency = frequency.clone();
+            frequency[k] /= unit;
+            ((frequency, *is_cos), coefficient)
+        });
+        let mut angles = own.to_vec();
+        angles[k].iter_mut().for_each(|(_, times)| *times *= unit);
+        let mut terms = by_powers(&angles, &powers_of(slower, DEGREE)?, None);
+        for (_, factors) in &mut terms {
+            for (exponent, is_cos) in common.into_iter().zip([false, true]) {
+                if exponent > 0 {
+                    factors.push((Factor::Trig(own[k].clone(), is_cos), exponent));
+                }
+            }
+            factors.sort_unstable();
+        }
+        Some(terms)
+    });
+    written.min_by_key(|terms| length(terms))
+}
+
+fn gcd(a: i32, b: i32) -> i32 {
+    if b == 0 { a } else { gcd(b, a % b) }
 }
 
 /// `a ± b`
@@ -301,10 +391,10 @@ fn waves_as_terms(angles: &[Angle], waves: &Waves) -> Vec<Term> {
 }
 
 /// Sums as products again, unless they are of high multiples.
-fn powers_of(waves: impl Iterator<Item = ((Vec<i32>, bool), Number)>) -> Option<Sum> {
+fn powers_of(waves: impl Iterator<Item = ((Vec<i32>, bool), Number)>, degree: i32) -> Option<Sum> {
     let mut sum = Sum::new();
     for ((frequency, is_cos), k) in waves {
-        if frequency.iter().map(|n| n.abs()).sum::<i32>() > DEGREE {
+        if frequency.iter().map(|n| n.abs()).sum::<i32>() > degree {
             return None;
         }
         // The pair of cosine and sine of the angles so far, each a sum of powers.
