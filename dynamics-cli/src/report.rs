@@ -13,9 +13,8 @@ mod swing;
 
 use std::path::PathBuf;
 
-use dynamics_codegen::closed::Notation;
-use dynamics_codegen::mechanics::closed::notation;
-use dynamics_codegen::mechanics::equations::{Argument, Inputs, Method};
+use dynamics_codegen::closed::{Notation, Role};
+use dynamics_codegen::mechanics::equations::{Argument, Method};
 use dynamics_codegen::symbolic::Graph;
 use dynamics_view::page::Page;
 
@@ -90,6 +89,7 @@ pub(super) struct Subject<'a, 'g> {
     graph: &'g Graph,
     input: &'a Input,
     name: String,
+    /// What the symbols of its equations are called.
     notation: Notation,
     /// Where the robot stands.
     at: State,
@@ -98,12 +98,14 @@ pub(super) struct Subject<'a, 'g> {
 impl Subject<'_, '_> {
     /// The letters of an argument's entries: θ₁, θ̇₁.
     fn letters(&self, argument: Argument) -> Vec<String> {
-        let inputs = Inputs::of(&self.robot.model);
-        let count = match argument {
-            Argument::Q => self.robot.tree.coordinates(),
-            _ => self.robot.dof(),
+        let role = match argument {
+            Argument::Q => Role::Coordinate,
+            Argument::V => Role::Speed,
+            Argument::A => Role::Acceleration,
+            Argument::Tau => Role::Force,
         };
-        (0..count).map(|k| self.notation.letter(inputs.symbol(argument, k)).name.unicode()).collect()
+        let letters = self.notation.letters().iter().filter(|letter| letter.role == role);
+        letters.map(|letter| letter.name.unicode()).collect()
     }
 }
 
@@ -127,7 +129,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let html = {
         let _progress = Progress::of("writing the page");
         let name = shown(&args.title.clone().unwrap_or_else(|| robot_name(&robot)));
-        let notation = notation(&robot.model);
+        let notation = equations::notation(&robot, &input)?;
         let subject = Subject { robot: &robot, graph: &graph, input: &input, name, notation, at };
         page(&subject, args, start)?.html().map_err(undrawn)?
     };

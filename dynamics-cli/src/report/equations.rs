@@ -4,17 +4,19 @@ use std::collections::BTreeMap;
 
 use dynamics_codegen::closed::{Form, Matrix, Notation};
 use dynamics_codegen::diagnostics::Diagnostics;
-use dynamics_codegen::mechanics::closed::{ClosedForms, closed_forms};
+use dynamics_codegen::mechanics::closed::{self, ClosedForms, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::mechanics::letters::{self, Letters};
-use dynamics_codegen::model;
+use dynamics_codegen::model::{self, Model};
 use dynamics_codegen::spec::RobotSpec;
 use dynamics_codegen::symbolic::{Graph, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
 
 use super::Subject;
 use crate::digits::{DIGITS, short};
-use crate::failure::Failure;
+use crate::failure::{Failure, Problem};
+use crate::input::Input;
+use crate::robot::Robot;
 
 /// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
 const LARGEST: usize = 12;
@@ -58,11 +60,22 @@ fn forms(subject: &Subject<'_, '_>) -> Result<Option<ClosedForms>, Failure> {
     if robot.spec.known.is_empty() {
         return Ok(closed_forms(&robot.model, subject.graph).ok());
     }
+    let graph = Graph::new();
+    Ok(closed_forms(&with_letters(robot, &graph, subject.input)?, &graph).ok())
+}
+
+/// What the symbols of a robot are called, fields with values among them.
+pub(super) fn notation(robot: &Robot<'_>, input: &Input) -> Result<Notation, Failure> {
+    Ok(closed::notation(&with_letters(robot, &Graph::new(), input)?))
+}
+
+/// The robot whose fields have no values.
+fn with_letters<'g>(robot: &Robot<'_>, graph: &'g Graph, input: &Input) -> Result<Model<'g>, Failure> {
     let spec = RobotSpec { known: vec![], ..robot.spec.clone() };
-    let (graph, mut diags) = (Graph::new(), Diagnostics::new());
-    let model = model::build(&spec, &graph, &mut diags);
-    diags.check().map_err(|found| Failure::mistakes(found, subject.input))?;
-    Ok(model.and_then(|model| closed_forms(&model, &graph).ok()))
+    let mut diags = Diagnostics::new();
+    let model = model::build(&spec, graph, &mut diags);
+    diags.check().map_err(|found| Failure::mistakes(found, input))?;
+    model.ok_or_else(|| Problem::new("the robot's equations have no letters").into())
 }
 
 /// The equation of which these are the parts. Its words have no article that could be taken for a letter.

@@ -43,7 +43,7 @@ fn a_derivation_leaves_the_robot_its_letters() {
     let equations = text.lines().filter(|line| line.starts_with("    ") && line.contains(" = "));
     assert!(equations.count() > 30, "{text}");
     for line in text.lines() {
-        assert_eq!(letters_on_the_left(line), [], "{line}");
+        assert!(letters_on_the_left(line).is_empty(), "{line}");
     }
     assert!(text.contains("𝐌 = 𝒯") || text.contains("ℒ = 𝒯 − 𝒱"), "{text}");
     assert!(!text.contains(['\u{e000}', '\u{e001}']), "{text}");
@@ -56,7 +56,8 @@ fn a_page_says_which_letters_gave_way() {
     for part in ["ℒ the Lagrangian", "𝐌 the mass matrix", "𝐱 the state", "𝐉 is a Jacobian"] {
         assert!(told.contains(part), "{told}");
     }
-    for line in ["    ℒ = ½ (M + m) ẋ²", "    𝐌 = ⎡  M + m ", "    ∂ℒ/∂ẋ = ", "    V = 9.81 m L cos θ"]
+    for line in
+        ["    ℒ = ½ (M + m) x\u{307}²", "    𝐌 = ⎡  M + m ", "    ∂ℒ/∂x\u{307} = ", "    V = 9.81 m L cos θ"]
     {
         assert!(text.contains(line), "{line}\n{text}");
     }
