@@ -62,6 +62,7 @@ pub(crate) fn failed(path: Option<&Path>, error: &io::Error) -> Failure {
         _ if is_stdout => "write to a file by `-o`, where the command has it",
         ErrorKind::NotFound => "make the folder first, or give the path of a file in one that is there",
         ErrorKind::IsADirectory => "give the path of a file in this folder",
+        ErrorKind::AlreadyExists => "give the path of a folder: there is a file of this name",
         ErrorKind::NotADirectory => "give the path of a file in a folder",
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
             "give the path of a file that you may write, or change who may"

@@ -153,11 +153,13 @@ impl ReadingArgs {
         Ok(input)
     }
 
-    /// Whether a text is Rust: by the name of its file, or by what it has if it has no name.
+    /// Whether a text is Rust: by the ending of its file, or by what it has if that tells nothing.
     fn is_rust(&self, file: &Path, text: &str) -> bool {
-        match file == Path::new("-") {
-            true => self.robot.is_some() || text.contains("#[derive("),
-            false => file.extension().is_some_and(|ending| ending == "rs"),
+        let is_derived = text.contains("#[derive(") && !text.trim_start().starts_with('<');
+        match file.extension() {
+            Some(ending) if ending == "rs" => true,
+            None if file == Path::new("-") => self.robot.is_some() || is_derived,
+            _ => is_derived,
         }
     }
 

@@ -169,7 +169,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let lost_at = |(failure, time)| lost(failure, time, args.method);
         let lost = |failure| lost_at((failure, now));
         mover.advance([before, now], args.time).map_err(lost_at)?;
-        if k % args.every == 0 || k == clock.steps {
+        if k.is_multiple_of(args.every) || k == clock.steps {
             write(&row(now, mover.state()).map_err(|absent| lost(absent.into()))?)?;
         }
         recording.see(k, now, mover.state()).map_err(lost)?;

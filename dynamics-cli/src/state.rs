@@ -105,18 +105,24 @@ pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<Sta
                 .into());
         }
         seen.push(key);
-        let no_number = || {
-            let problem = Problem::new(format!("`{key}` is no list of numbers"));
+        let no_number = |found: &Value, name: &str| {
+            let found = shown(&found.to_string());
+            let problem = Problem::new(format!("`{key}` of `{}` is {found}, and no number", shown(name)));
             Failure::from(problem.help(format!("give {}", wanted(names))))
         };
         match vector {
             Vector::All(items) => {
-                let numbers: Option<Vec<f64>> = items.iter().map(Value::as_f64).collect();
-                *slot = checked(key, numbers.ok_or_else(no_number)?, names)?;
+                let number = |(k, item): (usize, &Value)| {
+                    let name = names.get(k).map_or("one too many", String::as_str);
+                    item.as_f64().ok_or_else(|| no_number(item, name))
+                };
+                let numbers: Result<Vec<f64>, Failure> = items.iter().enumerate().map(number).collect();
+                *slot = checked(key, numbers?, names)?;
             }
             Vector::Some(entries) => {
                 for (name, value) in entries {
-                    set(key, slot, name, value.as_f64().ok_or_else(no_number)?, names)?;
+                    let number = value.as_f64().ok_or_else(|| no_number(value, name))?;
+                    set(key, slot, name, number, names)?;
                 }
             }
         }

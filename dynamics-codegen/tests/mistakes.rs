@@ -261,6 +261,7 @@ const LINES: &[(Code, &str)] = &[
         Code::NumberOutOfRange,
         "#[dynamics(gravity = [0, -1e100, 0])] J #[body(a, com = [1e20, 0, 0], solid = sphere(1e250, 1))]",
     ),
+    (Code::MovesNoInertia, "#[joint(q: universal(x, y), world -> a)] #[body(a, solid = rod(1, 0.4, y))]"),
     (Code::MovesNoInertia, "J #[body(a, mass = 0, inertia = diag(1, 0, 0), allow(nonphysical_inertia))]"),
     (Code::MovesNoMass, "#[joint(q: free, world -> a)] #[body(a)]"),
     (Code::MovesNoMass, "#[joint(q: planar(z), world -> a)] #[body(a)]"),

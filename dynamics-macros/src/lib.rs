@@ -400,6 +400,10 @@ use proc_macro::TokenStream;
 /// Each mistake is one error at its own tokens, with what to do and its name, as `dynamics::MassNegative`. All
 /// mistakes of a phase are reported at once; a later phase runs on sound input only.
 ///
+/// Clippy's `duplicated_attributes` takes two attributes for one where these have nothing but names and plain numbers, as in
+/// `#[body(a, mass = 1)]` and `#[body(b, mass = 1)]`. No derive can prevent that; a unit does, `mass = 1kg`, and so does
+/// `#[allow(clippy::duplicated_attributes)]` on the struct.
+///
 /// | of | |
 /// |---|---|
 /// | syntax | `Syntax`, `NestingTooDeep`, `AttributeMisplaced`, `KeyUnknown`, `KeyDuplicate`, `KeysConflict`, `KeyMissing`, `CountWrong`, `NumberOutOfRange`, `UnitUnknown`, `FunctionUnknown`, `ExponentInvalid`, `FieldUnknown` |

@@ -301,6 +301,15 @@ fn wrong_values_of_fields_are_told_with_their_names() {
     );
 }
 
+/// What is Rust is read as such, whatever its file is called.
+#[test]
+fn rust_is_known_by_what_it_has() {
+    let file = folder("rust_without_ending").join("robots.txt");
+    let robot = "#[derive(Dynamics)]\n#[joint(q: revolute(y), world -> a)]\n#[body(a, solid = sphere(1, 0.1))]\nstruct P;";
+    std::fs::write(&file, robot).unwrap();
+    assert!(dynamics(&["check", file.to_str().unwrap()]).ok().starts_with("robot `P` in "));
+}
+
 /// Where a file stops being Rust is shown, and why.
 #[test]
 fn what_is_no_rust_is_shown_in_the_file() {

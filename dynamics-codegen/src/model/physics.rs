@@ -295,7 +295,8 @@ fn check_moved(
         let driven = tree.links.iter().zip(loads).filter(|(link, _)| link.drive.v == speed);
         driven.map(|(link, beyond)| effect(link, *beyond)).max()
     };
-    let least = (v..v + joint.kind.speeds()).filter_map(effect_of).min();
+    let effects = (v..v + joint.kind.speeds()).filter_map(|speed| Some((effect_of(speed)?, speed - v)));
+    let (least, part) = effects.min().unzip();
     let place = &name.place;
     match least {
         Some(Effect::NoMass) => {
@@ -311,8 +312,18 @@ fn check_moved(
         }
         Some(Effect::NoInertia) => {
             let is_round = matches!(joint.kind, JointKind::Ball | JointKind::Free);
-            let where_ = if is_round { "on one line" } else { "on its axis" };
-            let message = format!("the joint `{name}` turns no inertia: all mass of `{child}` is {where_}");
+            let part = part
+                .and_then(|part| joint.kind.coordinate_parts().get(part))
+                .filter(|part| !is_round && !part.is_empty());
+            let message = match part {
+                Some(part) => format!(
+                    "the joint `{name}` turns no inertia by its coordinate `{name}.{part}`: all mass of `{child}` is on this axis"
+                ),
+                None if is_round => {
+                    format!("the joint `{name}` turns no inertia: all mass of `{child}` is on one line")
+                }
+                None => format!("the joint `{name}` turns no inertia: all mass of `{child}` is on its axis"),
+            };
             diags.error(Code::MovesNoInertia, place, message);
         }
         _ => {}
