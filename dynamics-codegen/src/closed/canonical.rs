@@ -16,6 +16,9 @@ pub struct Canonical<'g> {
     expansion: Expansion<'g>,
 }
 
+/// What is written in so many terms has this many times more at most when sines of sums are multiplied out.
+const EXPANDED: usize = 4;
+
 impl<'g> Canonical<'g> {
     /// The normal form for these expressions, and for what is made of them, with so many products of terms.
     ///
@@ -81,11 +84,14 @@ impl<'g> Canonical<'g> {
     ///
     /// If one is longer.
     pub fn forms(&self, notation: &Notation, polynomials: &[Polynomial], terms: usize) -> Result<Vec<Form>> {
-        let longest = polynomials.iter().map(Polynomial::len).max().unwrap_or(0);
-        if longest > terms {
+        let writer = Writer::new(notation, &self.expansion.ring);
+        let is_long = |polynomial: &Polynomial| {
+            polynomial.len() > terms
+                && (polynomial.len() > EXPANDED * terms || writer.terms(polynomial, terms) > terms)
+        };
+        if polynomials.iter().any(is_long) {
             return Err(Swelling);
         }
-        let writer = Writer::new(notation, &self.expansion.ring);
         Ok(polynomials.iter().map(|polynomial| writer.form(polynomial)).collect())
     }
 }

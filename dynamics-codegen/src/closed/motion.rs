@@ -88,6 +88,15 @@ impl Writer<'_> {
         }
     }
 
+    /// How many terms a polynomial has on paper, its sines written shortest; beyond `most` they are not counted.
+    pub(super) fn terms(&self, polynomial: &Polynomial, most: usize) -> usize {
+        let count = |sum: usize, (_, part): &(Motion, Polynomial)| {
+            let sum = sum + self.items(part).len();
+            if sum > most { Err(sum) } else { Ok(sum) }
+        };
+        self.by_motion(polynomial).iter().try_fold(0, count).unwrap_or_else(|sum| sum)
+    }
+
     /// The polynomials that each product of speeds is multiplied with.
     fn by_motion(&self, polynomial: &Polynomial) -> Vec<(Motion, Polynomial)> {
         let mut moving: Vec<(Motion, Vec<_>)> = Vec::new();

@@ -137,6 +137,27 @@ fn snapshots() {
     insta::assert_snapshot!("stanford_arm", text(&forms(source("stanford_arm")).unwrap()));
 }
 
+/// What a lecturer would write: squares of springs, quotients that end their products, one term for each angle.
+#[test]
+fn textbooks_write_it_so() {
+    let has_lines = |system: &str, expected: &[&str]| {
+        let source = textbook::SYSTEMS.iter().find(|(name, _)| *name == system).unwrap().1;
+        let text = text(&forms(source).unwrap());
+        for line in expected {
+            assert!(text.lines().any(|found| found == *line), "{system}: no `{line}` in\n{text}");
+        }
+    };
+    has_lines("elastic_pendulum", &["T = ½ m (r² θ\u{307}² + r\u{307}²)", "V = ½ k (r − l)² − m g r cos θ"]);
+    has_lines("chain_of_springs", &["V = ½ k ((x₁ − x₂)² + (x₂ − x₃)²)"]);
+    has_lines("spring_to_the_wall", &["V = ½ k (√(l² + a² + 2 l a sin θ) − s)² − m g l cos θ"]);
+    has_lines("elbow_out_of_plane", &["M₁₁ = m₁ a₁²/4 + m₂ (a₁ + ½ a₂ cos q₂)²"]);
+    has_lines("slider_with_a_quotient", &["M₁ = m l² (1 + 1/(1 + sin²q))"]);
+    has_lines("planar_4r", &["M₂₂ = 2 m l² (3 + 2 cos q₃ + cos(q₃ + q₄) + cos q₄)"]);
+    let row =
+        "G₁ = g ((m₁ c₁ + (m₂ + m₃) l₁) cos q₁ + (m₂ c₂ + m₃ l₂) cos(q₁ + q₂) + m₃ c₃ cos(q₁ + q₂ + q₃))";
+    has_lines("planar_3r", &[row]);
+}
+
 /// What stands on slides.
 #[test]
 fn systems_of_textbooks() {
