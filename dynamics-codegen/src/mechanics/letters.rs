@@ -208,11 +208,7 @@ fn each_letter(text: &str, mut visit: impl FnMut(char, bool)) {
         }
         let end = signs[at..].iter().position(|c| !is_letter(*c)).map_or(signs.len(), |length| at + length);
         let is_lowered = at > 0 && signs[at - 1] == '_';
-        let is_alone = match signs[at..end] {
-            [_] => true,
-            ['δ' | 'd', _] => true,
-            _ => false,
-        };
+        let is_alone = matches!(signs[at..end], [_] | ['δ' | 'd', _]);
         for sign in &signs[at..end] {
             visit(*sign, is_alone && !is_lowered);
         }
