@@ -153,7 +153,8 @@ impl Letters {
             written.push_str(letter.map_or(token, |letter| letter.latex));
             rest = after;
         }
-        written
+        // Those of what stands lowered.
+        written.replace(OWN, "")
     }
 
     /// The letters of mathematics in Unicode that give way, each once.
@@ -208,11 +209,7 @@ fn each_letter(text: &str, mut visit: impl FnMut(char, bool)) {
         }
         let end = signs[at..].iter().position(|c| !is_letter(*c)).map_or(signs.len(), |length| at + length);
         let is_lowered = at > 0 && signs[at - 1] == '_';
-        let is_alone = match signs[at..end] {
-            [_] => true,
-            ['δ' | 'd', _] => true,
-            _ => false,
-        };
+        let is_alone = matches!(signs[at..end], [_] | ['δ' | 'd', _]);
         for sign in &signs[at..end] {
             visit(*sign, is_alone && !is_lowered);
         }
@@ -235,6 +232,9 @@ fn command(text: &str) -> usize {
 fn argument(text: &str) -> usize {
     let space = text.len() - text.trim_start().len();
     let rest = &text[space..];
+    if rest.starts_with(OWN[0]) {
+        return space + rest.find(OWN[1]).map_or(rest.len(), |end| end + OWN[1].len_utf8());
+    }
     let mut depth = 0_usize;
     for (at, c) in rest.char_indices() {
         match c {

@@ -191,8 +191,11 @@ fn robot(names: &[&str], random: &mut Random) -> String {
     for (k, joint) in joints.iter().enumerate() {
         let kind = KINDS[(random.next() % KINDS.len() as u64) as usize];
         // Some fields have the name of a joint.
-        let parent =
-            if k == 0 || random.next() % 3 == 0 { "world".to_owned() } else { format!("body{}", k - 1) };
+        let parent = if k == 0 || random.next().is_multiple_of(3) {
+            "world".to_owned()
+        } else {
+            format!("body{}", k - 1)
+        };
         text += &format!(
             "#[joint({}: {kind}, {parent} -> body{k})] #[body(body{k}, mass = {}, com = [0, {}, 0], inertia = diag(1, 2, {}))]\n",
             raw(joint),
@@ -210,7 +213,7 @@ fn symbols_of_any_robot_are_distinct_and_read_back() {
     for seed in 0..120 {
         let mut random = Random(seed);
         let mut names = some_names(8, &mut random);
-        if seed % 2 == 0 {
+        if seed.is_multiple_of(2) {
             names[4] = names[0];
             names[5] = names[1];
         }
@@ -289,7 +292,8 @@ fn coordinates_have_the_letters_of_textbooks() {
     let named = |names: &[(&str, &str)]| {
         names.iter().map(|(name, kind)| format!("{name}: {kind}")).collect::<Vec<_>>()
     };
-    let cases: [(&[(&str, &str)], &str, &[&str]); 9] = [
+    type Case<'c> = (&'c [(&'c str, &'c str)], &'c str, &'c [&'c str]);
+    let cases: [Case<'_>; 9] = [
         // The Stanford arm, as in its books: the slide has the joint's number.
         (&[("waist", turn), ("shoulder", turn), ("boom", slide)], "d2 d6", &["θ₁", "θ₂", "d₃"]),
         (&[("cart", "prismatic(x)"), ("pole", turn)], "", &["x", "θ"]),
