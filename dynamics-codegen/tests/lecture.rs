@@ -6,7 +6,9 @@ use dynamics_codegen::closed::{Form, Matrix, evaluate};
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::closed_forms;
 use dynamics_codegen::mechanics::equations::{Argument, Inputs, Method};
-use dynamics_codegen::mechanics::lecture::{Body, Lecture, NoLinear, lecture};
+use dynamics_codegen::mechanics::lecture::{
+    Body, Excess, Inertia, Lecture, MOST_PARTS, MOST_TERMS, NoLinear, Part, lecture, recursion,
+};
 use dynamics_codegen::mechanics::plain::{self, Dual, Oracle};
 use dynamics_codegen::model::{self, Frame, Model, Tree};
 use dynamics_codegen::passes::{self, RunTime};
@@ -357,21 +359,169 @@ fn terms_of_the_energies_are_in_the_sums() {
     }
 }
 
-/// A large robot has its figure, and no more, at once.
+/// A chain whose closed form nobody would read, with numbers and letters.
+const SKEW: &str = "
+    #[joint(q1: revolute(y), world -> b1)] #[body(b1, mass = m, com = [l/2, 0, 0.1], inertia = diag(0.1, 0.2, 0.15))]
+    #[joint(q2: revolute(x), b1 -> b2, at = [l, 0, 0], stiffness = 3, armature = 0.02)]
+    #[body(b2, mass = m, com = [l/2, 0, 0.1], inertia = diag(0.1, 0.2, 0.15))]
+    #[joint(q3: universal(z, y), b2 -> b3, at = [l, 0, 0])] #[body(b3, mass = m, com = [l/2, 0, 0.1], inertia = diag(0.1, 0.2, 0.15))]
+    #[joint(q4: helical(y, 10mm), b3 -> b4, at = [l, 0, 0])] #[body(b4, mass = m, com = [l/2, 0, 0.1], inertia = diag(0.1, 0.2, 0.15))]
+    #[joint(q5: revolute(x), b2 -> b5, at = [l, 0, 0], mimic = q1, ratio = -2)]
+    #[body(b5, mass = m, com = [l/2, 0, 0.1], inertia = diag(0.1, 0.2, 0.15))]
+    struct Skew<T> { m: T, l: T }";
+
+type Rows = Vec<Vec<f64>>;
+
+fn product(a: &Rows, b: &Rows) -> Rows {
+    let entry = |row: &Vec<f64>, j: usize| row.iter().zip(b).map(|(x, row)| x * row[j]).sum::<f64>();
+    a.iter().map(|row| (0..b[0].len()).map(|j| entry(row, j)).collect()).collect()
+}
+
+fn transpose(a: &Rows) -> Rows {
+    (0..a[0].len()).map(|j| a.iter().map(|row| row[j]).collect()).collect()
+}
+
+fn sum(a: &Rows, k: f64, b: &Rows) -> Rows {
+    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| a + k * b).collect()).collect()
+}
+
+fn hat(p: &[f64]) -> Rows {
+    vec![vec![0.0, -p[2], p[1]], vec![p[2], 0.0, -p[0]], vec![-p[1], p[0], 0.0]]
+}
+
+fn blocks([[a, b], [c, d]]: [[&Rows; 2]; 2]) -> Rows {
+    let beside = |a: &Rows, b: &Rows| a.iter().zip(b).map(|(a, b)| [&a[..], b].concat()).collect::<Rows>();
+    [beside(a, b), beside(c, d)].concat()
+}
+
+/// `[ω̂, v̂; 0, ω̂]`
+fn ad(twist: &[f64]) -> Rows {
+    let (v, w, o) = (hat(&twist[..3]), hat(&twist[3..]), vec![vec![0.0; 3]; 3]);
+    blocks([[&w, &v], [&o, &w]])
+}
+
+/// The matrices that the words around a recursion speak of, from its parts: M, C and G.
+fn assembled(walk: &Walk<'_, '_>, parts: &[Part]) -> [Rows; 3] {
+    let n = walk.v.len();
+    let (o, zero) = (vec![vec![0.0; 3]; 3], vec![vec![0.0; n]; 6]);
+    let speeds: Rows = walk.v.iter().map(|&v| vec![v]).collect();
+    let (mut M, mut C, mut G) = (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n], vec![vec![0.0]; n]);
+    let mut known: Vec<[Rows; 3]> = vec![];
+    for part in parts {
+        let (turned, moved) = (walk.rows(&part.rotation), walk.column(&part.translation));
+        let back = transpose(&turned);
+        let lever = product(&back, &hat(&moved)).iter().map(|row| row.iter().map(|x| -x).collect()).collect();
+        let X = blocks([[&back, &lever], [&o, &back]]);
+        let own = walk.rows(&part.motion);
+        let spread: Rows = own
+            .iter()
+            .map(|row| {
+                (0..n)
+                    .map(|k| if part.speeds.contains(&k) { row[k - part.speeds.start] } else { 0.0 })
+                    .collect()
+            })
+            .collect();
+        let identity = vec![vec![1.0, 0.0, 0.0], vec![0.0, 1.0, 0.0], vec![0.0, 0.0, 1.0]];
+        let [R, J, dJ] =
+            part.carrier.map_or([identity, zero.clone(), zero.clone()], |carrier| known[carrier].clone());
+        let carried = product(&X, &J);
+        let own_twist = transpose(&product(&spread, &speeds)).concat();
+        let dJ = sum(&product(&X, &dJ), -1.0, &product(&ad(&own_twist), &carried));
+        let (R, J) = (product(&R, &turned), sum(&carried, 1.0, &spread));
+        if let Some(Inertia { mass, first, second }) = &part.inertia {
+            let (mass, second) = (walk.value(mass), walk.rows(second));
+            let first = first.as_ref().map_or(vec![0.0; 3], |first| walk.column(first));
+            let (h, minus): (Rows, Rows) = (hat(&first), transpose(&hat(&first)));
+            let scaled: Rows =
+                (0..3).map(|i| (0..3).map(|j| if i == j { mass } else { 0.0 }).collect()).collect();
+            let inertia = blocks([[&scaled, &minus], [&h, &second]]);
+            let twist = transpose(&product(&J, &speeds)).concat();
+            let momentum = transpose(&product(&inertia, &product(&J, &speeds))).concat();
+            let (f, moment) = (transpose(&hat(&momentum[..3])), transpose(&hat(&momentum[3..])));
+            let turning = sum(
+                &sum(&product(&inertia, &ad(&twist)), -1.0, &product(&transpose(&ad(&twist)), &inertia)),
+                1.0,
+                &blocks([[&o, &f], [&f, &moment]]),
+            );
+            M = sum(&M, 1.0, &product(&transpose(&J), &product(&inertia, &J)));
+            let rate = sum(&product(&inertia, &dJ), 0.5, &product(&turning, &J));
+            C = sum(&C, 1.0, &product(&transpose(&J), &rate));
+            let g: Rows = walk.tree.gravity.0.iter().map(|&g| vec![g]).collect();
+            let g = transpose(&product(&transpose(&R), &g)).concat();
+            let weight: Rows = g
+                .iter()
+                .map(|g| vec![mass * g])
+                .chain(product(&h, &g.iter().map(|&g| vec![g]).collect()))
+                .collect();
+            G = sum(&G, -1.0, &product(&transpose(&J), &weight));
+        }
+        known.push([R, J, dJ]);
+    }
+    [M, C, G]
+}
+
+/// What is made of the parts of a recursion, in the way that the words say, is what the plain recursion has.
 #[test]
-fn a_long_chain_ends_with_its_figure() {
-    let joint = |k: usize| {
-        let parent = if k == 0 { "world".to_owned() } else { format!("b{}", k - 1) };
-        format!(
-            "#[joint(j{k}: revolute(y), {parent} -> b{k}, at = [0, 0, 1])] #[body(b{k}, solid = rod(1, 1, z))]"
-        )
-    };
-    for (count, is_there) in [(4, true), (60, false)] {
-        let text = (0..count).map(joint).collect::<String>() + "struct Chain;";
-        with_model(&text, |model, graph| {
-            let lecture = lecture(model, graph);
-            assert_eq!(lecture.figure.unwrap().joints.len(), count);
-            assert_eq!(lecture.bodies.is_ok(), is_there);
+fn parts_make_the_equations() {
+    for text in ROBOTS.iter().chain([&SKEW]) {
+        with_model(text, |model, graph| {
+            let walk = Walk::at(model, graph, 1);
+            let found = recursion(model, graph, &walk.lecture.notation).unwrap();
+            let [mut M, C, G] = assembled(&walk, &found.parts);
+            for (k, rotor) in found.rotors.iter().flat_map(|rotors| walk.column(rotors)).enumerate() {
+                M[k][k] += rotor;
+            }
+            assert_close(&M.concat(), &plain::mass_matrix(&walk.tree, &walk.q).concat(), "M");
+            assert_close(&C.concat(), &plain::coriolis_matrix(&walk.tree, &walk.q, &walk.v).concat(), "C");
+            assert_close(&G.concat(), &plain::gravity_forces(&walk.tree, &walk.q), "G");
+            let passive = plain::passive::forces(&walk.tree, &walk.q, &walk.v);
+            let acting =
+                found.passive.as_ref().map_or(vec![0.0; walk.v.len()], |passive| walk.column(passive));
+            assert_close(&acting, &passive, "P");
         });
     }
+}
+
+/// What a student can read is written in closed form; beyond, and beyond what there are letters for, there is the recursion,
+/// and beyond that the figure alone.
+#[test]
+fn a_long_derivation_goes_on_by_recursion() {
+    let joint = |kind: &str, at: &str, k: usize| {
+        let parent = if k == 0 { "world".to_owned() } else { format!("b{}", k - 1) };
+        format!(
+            "#[joint(j{k}: {kind}, {parent} -> b{k}, at = {at})] #[body(b{k}, com = [l, 0, 0], solid = point(m))]"
+        )
+    };
+    let chain = |kind: &str, at: &str, count: usize| {
+        (0..count).map(|k| joint(kind, at, k)).collect::<String>() + "struct Chain<T> { m: T, l: T }"
+    };
+    let of =
+        |text: &str, check: &dyn Fn(&Lecture)| with_model(text, |model, graph| check(&lecture(model, graph)));
+    let coordinates = (0..15).map(|k| format!("#[coordinate(x{k}: length)] ")).collect::<String>();
+    let speeds = (0..15).map(|k| format!("dot(x{k})^2")).collect::<Vec<_>>().join(" + ");
+    let springs = (1..15).map(|k| format!("(x{} - x{k})^2", k - 1)).collect::<Vec<_>>().join(" + ");
+    let masses = format!(
+        "{coordinates} #[kinetic(m / 2 * ({speeds}))] #[potential(k / 2 * ({springs}))] struct Masses<T> {{ m: T, k: T }}"
+    );
+    for text in [chain("revolute(z)", "[l, 0, 0]", 4), masses] {
+        of(&text, &|lecture| {
+            assert!(
+                lecture.equations.is_ok() && lecture.recursion.is_none() && lecture.linear.is_ok(),
+                "{text}"
+            );
+        });
+    }
+    of(SKEW, &|lecture| {
+        let long = lecture.equations.as_ref().unwrap_err();
+        assert!(matches!(long.excess, Excess::Terms(count) if count > MOST_TERMS), "{long:?}");
+        assert!(lecture.recursion.as_ref().unwrap().is_ok() && lecture.linear.is_ok());
+    });
+    of(&chain("revolute(z)", "[l, 0, 0]", 30), &|lecture| {
+        assert_eq!(lecture.bodies.as_ref().unwrap_err().excess, Excess::Symbols);
+        assert!(lecture.recursion.as_ref().unwrap().is_ok() && lecture.linear.is_err());
+    });
+    of(&chain("revolute(z)", "[l, 0, 0]", MOST_PARTS + 1), &|lecture| {
+        assert_eq!(lecture.figure.as_ref().unwrap().joints.len(), MOST_PARTS + 1);
+        assert!(lecture.recursion.as_ref().unwrap().is_err());
+    });
 }

@@ -6,10 +6,11 @@ mod bodies;
 mod equations;
 mod figure;
 mod linear;
+mod recursion;
 
 use dynamics_codegen::closed::{Form, Matrix};
 use dynamics_codegen::mechanics::equations::{Argument, Inputs};
-use dynamics_codegen::mechanics::lecture::{Lecture, MOST_DOF, NoLinear};
+use dynamics_codegen::mechanics::lecture::{Body, Equations, Lecture, MOST_LINEAR, MOST_PARTS, NoLinear};
 use dynamics_codegen::mechanics::letters::own;
 use dynamics_codegen::model::{Model, Passive};
 use dynamics_codegen::symbolic::Expr;
@@ -113,22 +114,22 @@ impl Text<'_, '_> {
 
     fn steps(&mut self) {
         let lecture = self.lecture;
-        let Ok(bodies) = &lecture.bodies else { return self.too_long("What comes next") };
-        if !bodies.is_empty() {
-            self.poses(bodies);
-            self.jacobians(bodies);
+        match (&lecture.bodies, &lecture.equations, &lecture.recursion) {
+            (Ok(bodies), Ok(equations), _) => self.in_closed_form(bodies, equations),
+            (Err(long), ..) | (_, Err(long), _) => match &lecture.recursion {
+                Some(Ok(recursion)) => {
+                    self.no_closed_form(long);
+                    self.by_recursion(recursion);
+                }
+                _ => return self.too_long(),
+            },
         }
-        self.energies(bodies);
-        let Ok(equations) = &lecture.equations else { return self.too_long("The sum of all bodies") };
-        self.sums(bodies, equations);
-        self.mass_matrix(bodies, equations);
-        self.coriolis(equations);
-        self.potential(equations);
-        self.lagrange(equations);
-        self.state_space(equations);
         match &lecture.linear {
             Ok(linear) => self.linear(linear),
-            Err(NoLinear::Swelling) => self.too_long("The linear model"),
+            Err(NoLinear::Swelling) => self.text(&format!(
+                "The linear model would be too long to be read: it is written for up to {MOST_LINEAR} degrees of freedom, as long \
+                 as no entry of its matrices swells. `dynamics report` has it in numbers."
+            )),
             Err(NoLinear::Singular) => self.text(
                 "There is no linear model where all coordinates are zero: M is singular there, so that some motion has no \
                  inertia.",
@@ -139,18 +140,32 @@ impl Text<'_, '_> {
         }
     }
 
-    fn too_long(&mut self, what: &str) {
-        let dof = self.model.tree.dof();
-        let why = if dof > MOST_DOF {
-            format!(
-                "the robot has {dof} degrees of freedom, and {MOST_DOF} are the most that are written out"
-            )
-        } else {
-            "an entry has more than 60 terms, or takes more than 200,000 products of terms to find".to_owned()
-        };
+    fn in_closed_form(&mut self, bodies: &[Body], equations: &Equations) {
+        if !bodies.is_empty() {
+            self.poses(bodies);
+            self.jacobians(bodies);
+        }
+        self.energies(bodies);
+        self.sums(bodies, equations);
+        self.mass_matrix(bodies, equations);
+        self.coriolis(equations);
+        self.potential(equations);
+        self.lagrange(equations);
+        self.state_space(&Sides {
+            turns: !is_zero(&equations.coriolis_matrix),
+            pulls: !is_zero(&equations.gravity_forces),
+            acts: equations.passive.is_some(),
+            rates: equations.rates.as_ref(),
+        });
+    }
+
+    /// Not even the recursion can be read.
+    fn too_long(&mut self) {
         self.text(&format!(
-            "{what} would be too long to be read: {why}. Numbers are there all the same, by `dynamics eval`, and the \
-             code, by `dynamics generate`."
+            "What comes next would be too long to be read: {MOST_PARTS} parts that move are the most that are written out, and \
+             this robot has {}, or one of them swells by itself. Numbers are there all the same, by `dynamics eval`, and the \
+             code, by `dynamics generate`.",
+            self.model.tree.links.len()
         ));
     }
 
@@ -168,6 +183,18 @@ impl Text<'_, '_> {
         self.blocks.iter_mut().for_each(Block::shorten);
         self.blocks
     }
+}
+
+/// What is on the left-hand side beside `M·a`, and what the rates of coordinates are.
+struct Sides<'d> {
+    /// Whether there is `C·v`.
+    turns: bool,
+    /// Whether there is `G`.
+    pulls: bool,
+    /// Whether there is `P`.
+    acts: bool,
+    /// `q̇`, where speeds are no rates.
+    rates: Option<&'d Matrix>,
 }
 
 /// A letter of a body.

@@ -1,11 +1,13 @@
 //! A document for a terminal.
 
-use dynamics_codegen::closed::Notation;
+use dynamics_codegen::closed::{Matrix, Notation};
 
-use super::document::{Block, Piece, Side};
+use super::document::{Block, Piece, Side, lowered};
 
 /// Lines of words are no longer than this, and sums are broken at it.
 const WIDTH: usize = 100;
+/// Wider matrices are written entry by entry.
+const WIDEST: usize = 160;
 const INDENT: &str = "    ";
 
 /// Writes a document.
@@ -84,6 +86,15 @@ fn equation(sides: &[Side], notation: &Notation) -> Vec<String> {
     if is_flat {
         return broken(&columns.iter().map(|column| column[0].as_str()).collect::<Vec<_>>());
     }
+    if let (Some(Side::Math(name)), Some(Side::Matrix(matrix))) = (sides.first(), sides.last())
+        && columns
+            .iter()
+            .map(|column| column.iter().map(|line| width(line)).max().unwrap_or(0))
+            .sum::<usize>()
+            > WIDEST
+    {
+        return entries(&name.unicode, matrix, notation);
+    }
     let height = columns.iter().map(Vec::len).max().unwrap_or(1);
     let mut lines = vec![String::new(); height];
     for (k, column) in columns.iter().enumerate() {
@@ -104,9 +115,36 @@ fn equation(sides: &[Side], notation: &Notation) -> Vec<String> {
     lines
 }
 
+/// The entries of a matrix that are not zero, each on lines of its own.
+fn entries(name: &str, matrix: &Matrix, notation: &Notation) -> Vec<String> {
+    let name = if name.contains('·') { format!("({name})") } else { name.to_owned() };
+    let given: Vec<_> = matrix.entries().filter(|(.., form)| !form.is_zero()).collect();
+    let mut lines = Vec::new();
+    for (row, column, form) in &given {
+        let place = |i: usize, j: usize| match matrix.columns() {
+            1 => lowered(i + 1),
+            _ => format!("{}{}{}", lowered(i + 1), if i.max(j) > 8 { "," } else { "" }, lowered(j + 1)),
+        };
+        let mut left = format!("{name}{}", place(*row, *column));
+        if matrix.is_symmetric() && row != column {
+            left += &format!(" = {name}{}", place(*column, *row));
+        }
+        lines.extend(broken(&[&left, &form.unicode(notation)]));
+    }
+    let count = if matrix.is_symmetric() {
+        given.iter().map(|(row, column, _)| if row == column { 1 } else { 2 }).sum()
+    } else {
+        given.len()
+    };
+    if count < matrix.rows() * matrix.columns() {
+        lines.push(format!("The other entries of {name} are zero."));
+    }
+    lines
+}
+
 fn side(side: &Side, notation: &Notation) -> Vec<String> {
     match side {
-        Side::Math(math) => vec![math.unicode.clone()],
+        Side::Math(math) => math.unicode.split('\n').map(str::to_owned).collect(),
         Side::Form(form) => vec![form.unicode(notation)],
         Side::Matrix(matrix) => matrix.unicode(notation),
     }

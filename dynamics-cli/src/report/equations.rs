@@ -2,9 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use dynamics_codegen::closed::{Form, Matrix, Notation};
+use dynamics_codegen::closed::{Form, Limits, Matrix, Notation};
 use dynamics_codegen::diagnostics::Diagnostics;
-use dynamics_codegen::mechanics::closed::{self, ClosedForms, closed_forms};
+use dynamics_codegen::mechanics::closed::{self, ClosedForms, MOST_DOF_WITH_NAMES, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::mechanics::letters::{self, Letters};
 use dynamics_codegen::model::{self, Model};
@@ -18,8 +18,6 @@ use crate::failure::{Failure, Problem};
 use crate::input::Input;
 use crate::robot::Robot;
 
-/// Robots of more degrees of freedom are asked for no closed forms: nobody could read them.
-const LARGEST: usize = 12;
 /// Equations of more bytes are left out of the page.
 const LONGEST: usize = 400_000;
 /// Matrices of more letters in a row are written entry by entry.
@@ -35,9 +33,6 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Result<Section, Failure> {
         given_way => section.text(&letters::told(given_way, |letter| letter.unicode.to_owned())),
     };
     let section = section.table(symbols(subject));
-    if subject.robot.dof() > LARGEST {
-        return Ok(section.text(&too_large(subject)));
-    }
     let Some(forms) = forms(subject)? else { return Ok(section.text(&too_large(subject))) };
     let is_flat = subject.robot.tree.is_one_dof();
     let equations = written(&rounded(forms), is_flat);
@@ -114,9 +109,12 @@ fn rounded(forms: ClosedForms) -> ClosedForms {
 fn too_large(subject: &Subject<'_, '_>) -> String {
     format!(
         "In closed form the equations of these {} degrees of freedom have more terms than anybody could read. They are \
-         written out for robots of up to {LARGEST}, as long as no entry swells and all of them take less than {} kB. What M \
-         is made of is drawn below, and `dynamics generate` writes all of it as code.",
+         written out where no entry has more than {} terms, and for robots of up to {MOST_DOF_WITH_NAMES} with up to {} names \
+         for their parts, as long as all of it takes less than {} kB. What M is made of is drawn below, `dynamics explain` \
+         derives the equations body by body, and `dynamics generate` writes all of it as code.",
         subject.robot.dof(),
+        Limits::READABLE.terms,
+        Limits::READABLE.names,
         LONGEST / 1000
     )
 }

@@ -108,6 +108,11 @@ fn every_robot_is_explained_as_far_as_it_can_be_read() {
             assert!(text.len() < 200_000, "{file}: {} bytes", text.len());
             // A derivation is whole, or says why it is not.
             assert!(text.contains("10. Linear") != text.contains("too long to be read"), "{file}: {text}");
+            assert_eq!(
+                text.contains("9. The state space"),
+                !text.contains("What comes next would"),
+                "{file}: {text}"
+            );
             if format == "latex" {
                 assert!(text.is_ascii() && text.ends_with("\\end{document}\n"), "{file}: {text}");
                 assert_eq!(text.matches("\\begin{").count(), text.matches("\\end{").count(), "{file}");
@@ -116,6 +121,39 @@ fn every_robot_is_explained_as_far_as_it_can_be_read() {
             }
         }
     }
+}
+
+/// Where a closed form would swell, the derivation says what would, and goes on by names, to the linear model.
+#[test]
+fn a_long_derivation_goes_on_by_names() {
+    let text = dynamics(&["explain", &model("iiwa14")]).ok();
+    for present in ["R₇′ = ", "S₇ = ", "C = Σ J_iᵀ·(ℳ_i·J̇_i + ℬ_i·J_i)"] {
+        assert!(text.contains(present), "{present}: {text}");
+    }
+    assert_eq!(sections(&text), (1..=10).collect::<Vec<_>>());
+    let joint = |k: usize| {
+        let parent = if k == 0 { "world".to_owned() } else { format!("b{}", k - 1) };
+        format!(
+            "#[joint(j{k}: revolute(z), {parent} -> b{k}, at = [l, 0, 0])] #[body(b{k}, com = [l, 0, 0], solid = point(m))] "
+        )
+    };
+    let of = |count: usize| {
+        let chain = (0..count).map(joint).collect::<String>();
+        dynamics_on(
+            format!("#[derive(Dynamics)] {chain} struct Chain {{ m: f64, l: f64 }}").as_bytes(),
+            &["explain", "-"],
+        )
+        .ok()
+    };
+    // On a sheet of paper; entries of wide matrices have lines of their own.
+    let four = of(4);
+    assert!(four.contains("    M₃₃ = m l² (3 + 2 cos j₃)\n") || four.contains("    M₄₄ = m l²\n"), "{four}");
+    assert!(
+        four.contains("The other entries of C are zero.") && !four.contains("nobody could read"),
+        "{four}"
+    );
+    let long = of(61).split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(long.contains("60 parts that move are the most") && !long.contains(" 2. "), "{long}");
 }
 
 /// A code is a code, whatever files there are; what looks like a path is one.

@@ -2,6 +2,7 @@
 
 use super::expand::Expansion;
 use super::item::Writer;
+use super::monomial::VARIABLES;
 use super::ring::{Result, Ring, Swelling, Variable};
 use super::{Form, Notation, Polynomial};
 use crate::symbolic::{Expr, Graph, Number, SymbolId};
@@ -20,6 +21,9 @@ pub struct Canonical<'g> {
 const EXPANDED: usize = 4;
 
 impl<'g> Canonical<'g> {
+    /// How many symbols, sines, cosines, roots and quotients there can be at once.
+    pub const MOST_SYMBOLS: usize = VARIABLES;
+
     /// The normal form for these expressions, and for what is made of them, with so many products of terms.
     ///
     /// # Errors

@@ -48,7 +48,7 @@ impl Polynomial {
     }
 
     /// How many terms there are.
-    pub(super) fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.0.len()
     }
 

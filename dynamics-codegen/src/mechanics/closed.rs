@@ -32,23 +32,24 @@ pub struct ClosedForms {
     pub lagrangian: Form,
 }
 
-/// The largest robot whose equations are written at all.
-const LARGEST: usize = 8;
+/// The largest robot whose equations have names for their parts, where they are too long without.
+pub const MOST_DOF_WITH_NAMES: usize = 8;
 
 /// The equations of `model` in closed form.
 ///
 /// Of small robots they are multiplied out: `T` and `V` by the plain recursion, the rest from them by Lagrange's equations,
 /// all in the normal form of [`Canonical`]. Where a term would have more than [`Limits::READABLE`] allows, they are those
-/// that the programs are made of, with names for what they share.
+/// that the programs are made of, with names for what they share, up to [`MOST_DOF_WITH_NAMES`]. The work is counted, and
+/// so ends.
 ///
 /// # Errors
 ///
-/// If the robot has more than eight degrees of freedom, or its equations more names than the limits allow.
+/// If the equations have more terms, or more names, than the limits allow.
 pub fn closed_forms<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
-    if Inputs::of(model).dof > LARGEST {
-        return Err(Swelling);
-    }
-    multiplied_out(model, graph).or_else(|Swelling| with_names(model, graph))
+    multiplied_out(model, graph).or_else(|Swelling| match Inputs::of(model).dof > MOST_DOF_WITH_NAMES {
+        true => Err(Swelling),
+        false => with_names(model, graph),
+    })
 }
 
 fn with_names<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
@@ -74,6 +75,9 @@ fn with_names<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Sw
 
 fn multiplied_out<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Swelling> {
     let inputs = Inputs::of(model);
+    if model.parameters.len() + inputs.size(Argument::Q) + inputs.dof >= Canonical::MOST_SYMBOLS {
+        return Err(Swelling);
+    }
     let notation = notation(model);
     let [q, v] = [Argument::Q, Argument::V].map(|argument| inputs.vector(graph, argument));
     let T = plain::kinetic_energy(&model.tree, &q, &v);

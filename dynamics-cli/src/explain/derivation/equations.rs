@@ -5,7 +5,7 @@ use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::mechanics::lecture::{Body, Equations, Row};
 
 use super::super::document::{Block, Math, Piece, Side, indexed, lowered, math, words};
-use super::{Text, is_zero, letter, listed, of};
+use super::{Sides, Text, is_zero, letter, listed, of};
 
 impl Text<'_, '_> {
     pub(super) fn mass_matrix(&mut self, bodies: &[Body], equations: &Equations) {
@@ -276,17 +276,17 @@ impl Text<'_, '_> {
     }
 
     /// What acts by itself, as the subject of a sentence.
-    fn passive_parts(&self) -> String {
+    pub(super) fn passive_parts(&self) -> String {
         let parts = self.passive();
         format!("{} {}", listed(&parts), if parts == ["friction"] { "acts" } else { "act" })
     }
 
-    pub(super) fn state_space(&mut self, equations: &Equations) {
+    pub(super) fn state_space(&mut self, sides: &Sides<'_>) {
         self.heading("The state space");
         let (dof, driven) = (self.model.tree.dof(), self.model.actuated.len());
         let (is_flat, v) = (self.is_flat(), self.speeds());
         let state = format!("$x = (q, {})|x = (q, {})$", v.unicode, v.latex);
-        let tau = if equations.passive.is_some() { ["τ", "\\tau"] } else { ["Υ", "\\Upsilon"] };
+        let tau = if sides.acts { ["τ", "\\tau"] } else { ["Υ", "\\Upsilon"] };
         let motors = match driven {
             _ if driven == dof => format!(
                 "the input is the vector $u|u$ of the motors' forces, $u = {}|u = {}$",
@@ -306,7 +306,7 @@ impl Text<'_, '_> {
         let rate = |unicode: &str, latex: &str| {
             letter(&format!("d/dt {unicode}"), &format!("\\tfrac{{d}}{{dt}} {latex}"))
         };
-        match &equations.rates {
+        match sides.rates {
             None => self.equation([rate("q", "q"), Side::Math(v.clone())]),
             Some(rates) => self.equation([rate("q", "q"), Side::Matrix(rates.clone())]),
         }
@@ -317,9 +317,9 @@ impl Text<'_, '_> {
         };
         let parts = [
             (driven > 0, input.map(str::to_owned)),
-            (!is_zero(&equations.coriolis_matrix), [format!("C·{}", v.unicode), format!("C {}", v.latex)]),
-            (!is_zero(&equations.gravity_forces), ["G", "G"].map(str::to_owned)),
-            (equations.passive.is_some(), ["P", "P"].map(str::to_owned)),
+            (sides.turns, [format!("C·{}", v.unicode), format!("C {}", v.latex)]),
+            (sides.pulls, ["G", "G"].map(str::to_owned)),
+            (sides.acts, ["P", "P"].map(str::to_owned)),
         ];
         let parts: Vec<[String; 2]> =
             parts.into_iter().filter(|(is_there, _)| *is_there).map(|(_, part)| part).collect();

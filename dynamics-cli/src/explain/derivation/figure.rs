@@ -12,7 +12,7 @@ impl Text<'_, '_> {
     pub(super) fn figure(&mut self) {
         let Ok(figure) = &self.lecture.figure else {
             self.heading("The robot, where its coordinates are zero");
-            return self.too_long("The figure");
+            return self.text("Where its joints are would be too long to be read.");
         };
         match figure.joints.iter().all(|joint| joint.is_bare) {
             true => {

@@ -56,8 +56,12 @@ impl Text<'_, '_> {
             }
             (false, _) => {}
         }
-        if is_driven {
-            self.equation([letter("B", "B"), Side::Matrix(linear.inputs.clone())]);
+        match self.model.actuated.len() {
+            0 => {}
+            driven if driven == self.model.tree.dof() => {
+                self.text("Every speed has its motor: $B = 1|B = 1$.")
+            }
+            _ => self.equation([letter("B", "B"), Side::Matrix(linear.inputs.clone())]),
         }
         if !is_stiff {
             self.text("Nothing pulls it back or drives it away: $K₀ = 0|K_0 = 0$.");

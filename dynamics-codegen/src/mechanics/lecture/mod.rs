@@ -8,22 +8,63 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 mod figure;
+mod length;
 mod linear;
+mod moving;
+mod recursion;
 mod steps;
 
 use super::closed::notation;
-use crate::closed::{Form, Limits, Matrix, Notation, Swelling};
+use super::equations::{Argument, Inputs};
+use crate::closed::{Canonical, Form, Limits, Matrix, Notation, Swelling};
 use crate::model::{Model, Motion};
 use crate::symbolic::Graph;
+pub use recursion::{Inertia, Part, Recursion, recursion};
 use steps::Steps;
 
-/// A robot of more degrees of freedom is not derived step by step: it would fill a book.
-pub const MOST_DOF: usize = 12;
+/// What has more terms on paper is not written out.
+pub const MOST_TERMS: usize = 100;
+
+/// A derivation has no more terms than this in all: some thirty pages.
+pub const MOST_TERMS_IN_ALL: usize = 8_000;
+
+/// Products of terms that are made for one robot at most.
+pub const MOST_PRODUCTS: usize = 2_000_000;
+
+/// Robots of more parts that move are not derived by recursion either: it would fill a book.
+pub const MOST_PARTS: usize = 60;
+
+/// Linear models of more degrees of freedom have matrices that nobody reads.
+pub const MOST_LINEAR: usize = 15;
 
 /// A step has all that it says in it; figures of long chains are sums of many lengths.
 const WITHOUT_NAMES: Limits = Limits { work: 200_000, terms: 200, names: 0 };
 
-/// All steps. Each part ends where it would be too long to read.
+/// What is too long to be written out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TooLong {
+    /// What it is called: `M`, `Υ`, `T`.
+    pub letter: &'static str,
+    /// Its indices, from zero: of a body, and of the entry.
+    pub indices: Vec<usize>,
+    /// Why.
+    pub excess: Excess,
+}
+
+/// In what something is too long.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Excess {
+    /// It has so many terms, and [`MOST_TERMS`] are allowed.
+    Terms(usize),
+    /// With it the derivation has more than [`MOST_TERMS_IN_ALL`].
+    All,
+    /// Multiplying it out takes more than [`MOST_PRODUCTS`].
+    Products,
+    /// The robot has more symbols, and sines and cosines, than one expression can have.
+    Symbols,
+}
+
+/// All steps. Where closed forms would be too long to read, there is the recursion instead.
 #[derive(Clone, Debug)]
 pub struct Lecture {
     /// What the symbols are called: those of [`Inputs`](super::equations::Inputs).
@@ -31,9 +72,11 @@ pub struct Lecture {
     /// The robot where its coordinates are zero.
     pub figure: Result<Figure, Swelling>,
     /// The bodies that move and have mass, parents before children.
-    pub bodies: Result<Vec<Body>, Swelling>,
+    pub bodies: Result<Vec<Body>, TooLong>,
     /// Their equations.
-    pub equations: Result<Equations, Swelling>,
+    pub equations: Result<Equations, TooLong>,
+    /// The robot part by part, where one of these is too long.
+    pub recursion: Option<Result<Recursion, Swelling>>,
     /// The linear model about the neutral state.
     pub linear: Result<Linear, NoLinear>,
 }
@@ -215,22 +258,39 @@ pub struct Linear {
     pub inputs: Matrix,
 }
 
-/// Derives the equations of `model`, step by step; of more than [`MOST_DOF`] degrees of freedom the figure alone.
+/// Derives the equations of `model`, step by step.
 pub fn lecture<'g>(model: &Model<'g>, graph: &'g Graph) -> Lecture {
     let notation = notation(model);
     let figure = figure::figure(model, graph, &notation);
-    let steps = if model.tree.dof() > MOST_DOF { Err(Swelling) } else { Steps::new(model, graph, &notation) };
-    let (bodies, equations) = match steps {
-        Err(Swelling) => (Err(Swelling), Err(Swelling)),
-        Ok(mut steps) => {
-            let bodies = steps.bodies();
-            let equations = if bodies.is_ok() { steps.equations() } else { Err(Swelling) };
-            (bodies, equations)
-        }
+    let (bodies, equations) = closed(model, graph, &notation);
+    let is_long = bodies.is_err() || equations.is_err();
+    let recursion = is_long.then(|| recursion::recursion(model, graph, &notation));
+    let linear = match model.tree.dof() > MOST_LINEAR || matches!(recursion, Some(Err(Swelling))) {
+        true => Err(NoLinear::Swelling),
+        false => linear::linear(model, graph, &notation),
     };
-    let linear = match equations {
-        Ok(_) => linear::linear(model, graph, &notation),
-        Err(Swelling) => Err(NoLinear::Swelling),
+    Lecture { notation, figure, bodies, equations, recursion, linear }
+}
+
+/// The steps in closed form.
+fn closed<'g>(
+    model: &Model<'g>,
+    graph: &'g Graph,
+    notation: &Notation,
+) -> (Result<Vec<Body>, TooLong>, Result<Equations, TooLong>) {
+    let symbols = TooLong { letter: "T", indices: vec![], excess: Excess::Symbols };
+    let inputs = Inputs::of(model);
+    let count = model.parameters.len() + inputs.size(Argument::Q) + 2 * inputs.dof;
+    if count >= Canonical::MOST_SYMBOLS {
+        return (Err(symbols.clone()), Err(symbols));
+    }
+    let Ok(mut steps) = Steps::new(model, graph, notation) else {
+        return (Err(symbols.clone()), Err(symbols));
     };
-    Lecture { notation, figure, bodies, equations, linear }
+    let bodies = steps.bodies().map_err(|stop| steps.too_long(stop));
+    let equations = match &bodies {
+        Ok(_) => steps.equations().map_err(|stop| steps.too_long(stop)),
+        Err(long) => Err(long.clone()),
+    };
+    (bodies, equations)
 }

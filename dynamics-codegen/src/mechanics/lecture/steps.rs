@@ -2,78 +2,36 @@
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 #![allow(clippy::needless_range_loop, reason = "indices are those of the formulas")]
 
-use super::{Body, Christoffel, Equations, Rotors, Row, Terms};
+use super::length::terms;
+use super::moving::{Moving, moving};
+use super::{
+    Body, Christoffel, Equations, Excess, MOST_PRODUCTS, MOST_TERMS, MOST_TERMS_IN_ALL, Rotors, Row, Terms,
+    TooLong,
+};
 use crate::closed::{Canonical, Form, Matrix, Notation, Polynomial, Swelling};
 use crate::mechanics::equations::{Argument, Inputs};
 use crate::mechanics::plain;
-use crate::model::{Frame, Link, LinkInfo, Model};
-use crate::spatial::{Pose, PseudoInertia, Vector3};
-use crate::symbolic::{Expr, Graph, Number, Op, SymbolId};
+use crate::model::Model;
+use crate::symbolic::{Expr, Graph, Number, SymbolId};
 
-/// Products of terms that are made for one robot at most.
-const WORK: usize = 200_000;
-/// What has more terms than this is not written out.
-const TERMS: usize = 60;
+/// An expression of more terms is not brought into a readable shape at all: that takes its time.
+const RAW: usize = 300;
 
-/// A body in expressions.
-struct Moving<'g> {
-    name: String,
-    welded: Vec<String>,
-    mass: Expr<'g>,
-    /// Of its frame, in the world.
-    pose: Pose<Expr<'g>>,
-    /// `m·c` in its frame, where that is not at the centre of mass.
-    first: Option<Vector3<Expr<'g>>>,
-    /// About the frame's origin.
-    inertia: [[Expr<'g>; 3]; 3],
-    jacobian: Vec<Vec<Expr<'g>>>,
-    potential: Expr<'g>,
+/// Why a step cannot be written.
+pub(super) enum Stop {
+    /// It takes too many products of terms.
+    Work,
+    /// An entry is too long.
+    Long(TooLong),
 }
 
-/// The bodies of a tree at a configuration.
-fn moving<'g>(model: &Model<'g>, graph: &'g Graph, q: &[Expr<'g>]) -> Vec<Moving<'g>> {
-    let tree = &model.tree;
-    let with_mass = tree.links.iter().zip(&model.links).enumerate().filter(|(_, (link, _))| {
-        let PseudoInertia { mass, second, .. } = link.inertia;
-        !mass.is_zero() || !second.full().0.concat().iter().all(|entry| entry.is_zero())
-    });
-    let body = |(k, (link, info)): (usize, (&Link<Expr<'g>>, &LinkInfo))| {
-        let own = info.body.map(|body| &tree.frames[body]);
-        let frame = own.map_or_else(Pose::identity, |frame| frame.pose);
-        let PseudoInertia { mass, first, .. } = link.inertia;
-        // Of several bodies welded together the centre of mass is a quotient by a sum, which nobody reads.
-        let is_own = mass.is_zero() || is_sum(graph, mass);
-        let origin = if is_own { frame.translation } else { first.map(|moment| moment / mass) };
-        let at_origin = Pose { translation: origin, ..frame };
-        let frame = Frame { name: String::new(), link: Some(k), pose: at_origin };
-        let pose = plain::pose(tree, &frame, q);
-        let seen = link.inertia.transformed(at_origin.inverse());
-        let first = is_own.then_some(seen.first);
-        let others = tree
-            .frames
-            .iter()
-            .enumerate()
-            .filter(|(at, other)| other.link == Some(k) && Some(*at) != info.body);
-        let moment = first.map_or_else(Vector3::zero, |first| pose.rotation * first);
-        let potential = -(tree.gravity.dot(pose.translation) * mass + tree.gravity.dot(moment));
-        Moving {
-            name: own.map_or_else(|| info.joint.clone(), |own| own.name.clone()),
-            welded: others.map(|(_, other)| other.name.clone()).collect(),
-            mass,
-            pose,
-            first,
-            inertia: seen.rotational().full().0,
-            jacobian: plain::body_jacobian(tree, &frame, q),
-            potential,
-        }
-    };
-    with_mass.map(body).collect()
+impl From<Swelling> for Stop {
+    fn from(Swelling: Swelling) -> Self {
+        Self::Work
+    }
 }
 
-/// Whether an expression is a sum.
-fn is_sum(graph: &Graph, expr: Expr<'_>) -> bool {
-    matches!(expr, Expr::Node { id, .. } if matches!(graph.op(id), Op::Add(..) | Op::Sub(..)))
-}
+type Result<T, E = Stop> = std::result::Result<T, E>;
 
 /// The steps on their way, in the normal form.
 pub(super) struct Steps<'m, 'g> {
@@ -96,6 +54,18 @@ pub(super) struct Steps<'m, 'g> {
     M: Vec<Vec<Polynomial>>,
     T: Polynomial,
     V: Polynomial,
+    /// What is made at present.
+    at: Place,
+    /// How many terms are written already.
+    length: usize,
+}
+
+/// Where in a derivation something stands.
+#[derive(Clone, Copy)]
+struct Place {
+    letter: &'static str,
+    /// The index of all of it, from zero.
+    index: Option<usize>,
 }
 
 impl<'m, 'g> Steps<'m, 'g> {
@@ -128,7 +98,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         if let Some((C, G)) = &by_brackets {
             exprs.extend(C.concat().iter().chain(G));
         }
-        let canonical = Canonical::new(graph, notation, &exprs, WORK)?;
+        let canonical = Canonical::new(graph, notation, &exprs, MOST_PRODUCTS)?;
         let [q, v, a] = [Argument::Q, Argument::V, Argument::A]
             .map(|argument| (0..inputs.size(argument)).map(|k| inputs.symbol(argument, k)).collect());
         let (M, zero) = (vec![vec![Polynomial::zero(); n]; n], Polynomial::zero);
@@ -148,16 +118,83 @@ impl<'m, 'g> Steps<'m, 'g> {
             M,
             T: zero(),
             V: zero(),
+            at: Place { letter: "T", index: None },
+            length: 0,
         })
     }
 
-    pub(super) fn bodies(&mut self) -> Result<Vec<Body>, Swelling> {
-        let moving = std::mem::take(&mut self.bodies);
-        moving.iter().map(|body| self.body(body)).collect()
+    /// What stopped, in words.
+    pub(super) fn too_long(&self, stop: Stop) -> TooLong {
+        match stop {
+            Stop::Long(long) => long,
+            Stop::Work => {
+                let indices = self.at.index.into_iter().collect();
+                TooLong { letter: self.at.letter, indices, excess: Excess::Products }
+            }
+        }
     }
 
-    fn body(&mut self, body: &Moving<'g>) -> Result<Body, Swelling> {
+    /// From here on something else is made.
+    fn at(&mut self, letter: &'static str, index: Option<usize>) {
+        self.at = Place { letter, index };
+    }
+
+    /// How the entries of what is made are written, each at its place in this.
+    fn forms(
+        &mut self,
+        polynomials: &[Polynomial],
+        place: impl Fn(usize) -> Vec<usize>,
+    ) -> Result<Vec<Form>> {
+        let mut forms = Vec::with_capacity(polynomials.len());
+        for (k, polynomial) in polynomials.iter().enumerate() {
+            let written = self.canonical.forms(self.notation, std::slice::from_ref(polynomial), RAW);
+            let form = written.ok().and_then(|mut forms| forms.pop());
+            let count = form.as_ref().map_or(polynomial.len(), terms);
+            self.length += count;
+            let excess = match form {
+                Some(form) if count <= MOST_TERMS && self.length <= MOST_TERMS_IN_ALL => {
+                    forms.push(form);
+                    continue;
+                }
+                Some(_) if count <= MOST_TERMS => Excess::All,
+                _ => Excess::Terms(count),
+            };
+            let Place { letter, index } = self.at;
+            let indices = index.into_iter().chain(place(k)).collect();
+            return Err(Stop::Long(TooLong { letter, indices, excess }));
+        }
+        Ok(forms)
+    }
+
+    fn form(&mut self, polynomial: &Polynomial) -> Result<Form> {
+        Ok(self.forms(std::slice::from_ref(polynomial), |_| vec![])?.swap_remove(0))
+    }
+
+    fn vector(&mut self, polynomials: &[Polynomial]) -> Result<Matrix> {
+        Ok(Matrix::vector(self.forms(polynomials, |k| vec![k])?))
+    }
+
+    fn matrix(&mut self, entries: &[Polynomial], columns: usize) -> Result<Matrix> {
+        let forms = self.forms(entries, |k| vec![k / columns, k % columns])?;
+        Ok(Matrix::of_rows(forms.chunks(columns).map(<[Form]>::to_vec).collect()))
+    }
+
+    fn symmetric(&mut self, rows: &[Vec<Polynomial>]) -> Result<Matrix> {
+        let n = rows.len();
+        let places: Vec<[usize; 2]> = (0..n).flat_map(|i| (i..n).map(move |j| [i, j])).collect();
+        let upper: Vec<Polynomial> = places.iter().map(|&[i, j]| rows[i][j].clone()).collect();
+        let mut forms = self.forms(&upper, |k| places[k].to_vec())?.into_iter();
+        Ok(Matrix::symmetric((0..n).map(|i| forms.by_ref().take(n - i).collect()).collect()))
+    }
+
+    pub(super) fn bodies(&mut self) -> Result<Vec<Body>> {
+        let moving = std::mem::take(&mut self.bodies);
+        moving.iter().enumerate().map(|(i, body)| self.body(i, body)).collect()
+    }
+
+    fn body(&mut self, at: usize, body: &Moving<'g>) -> Result<Body> {
         let n = self.v.len();
+        self.at("V", Some(at));
         let mass = self.canonical.polynomial(body.mass)?;
         let rotation = self.all(&body.pose.rotation.0.concat())?;
         let center = self.all(&body.pose.translation.0)?;
@@ -167,10 +204,13 @@ impl<'m, 'g> Steps<'m, 'g> {
             None => vec![Polynomial::zero(); 3],
         };
         let jacobian: Vec<Vec<Polynomial>> =
-            body.jacobian.iter().map(|row| self.all(row)).collect::<Result<_, _>>()?;
+            body.jacobian.iter().map(|row| self.all(row)).collect::<Result<_>>()?;
         let speeds = self.symbols(&self.v.clone())?;
-        let twist: Vec<Polynomial> =
-            jacobian.iter().map(|row| self.canonical.dot(row, &speeds)).collect::<Result<_, _>>()?;
+        let mut twist = Vec::with_capacity(6);
+        for row in &jacobian {
+            twist.push(self.canonical.dot(row, &speeds)?);
+        }
+        self.at("T", Some(at));
         let columns: Vec<Vec<Polynomial>> =
             (0..n).map(|j| jacobian.iter().map(|row| row[j].clone()).collect()).collect();
         let mut momenta = Vec::with_capacity(n);
@@ -191,26 +231,40 @@ impl<'m, 'g> Steps<'m, 'g> {
         let potential = self.canonical.polynomial(body.potential)?;
         self.T = self.T.plus(Number::ONE, &kinetic);
         self.V = self.V.plus(Number::ONE, &potential);
-        let mut forms = |polynomials: &[Polynomial]| self.canonical.forms(self.notation, polynomials, TERMS);
-        let square =
-            |entries: Vec<Form>, n: usize| Matrix::of_rows(entries.chunks(n).map(<[Form]>::to_vec).collect());
-        let [mass, kinetic_energy, potential_energy] = three(forms(&[mass, kinetic, potential])?);
+        let written = |steps: &mut Self, letter| steps.at(letter, Some(at));
+        written(self, "m");
+        let mass = self.form(&mass)?;
+        written(self, "𝓘");
+        let inertia = self.matrix(&inertia, 3)?;
+        written(self, "R");
+        let rotation = self.matrix(&rotation, 3)?;
+        written(self, "p");
+        let center = self.vector(&center)?;
+        written(self, "h");
+        let first = match body.first {
+            Some(_) => Some(self.vector(&first)?),
+            None => None,
+        };
+        written(self, "J");
+        let jacobian = self.matrix(&jacobian.concat(), n)?;
+        written(self, "V");
+        let twist = self.vector(&twist)?;
+        written(self, "T");
+        let (kinetic_energy, potential_energy) = (self.form(&kinetic)?, self.form(&potential)?);
+        written(self, "JᵀℳJ");
         Ok(Body {
             name: body.name.clone(),
             welded: body.welded.clone(),
             mass,
-            inertia: square(forms(&inertia)?, 3),
-            rotation: square(forms(&rotation)?, 3),
-            center: Matrix::vector(forms(&center)?),
-            first: match body.first {
-                Some(_) => Some(Matrix::vector(forms(&first)?)),
-                None => None,
-            },
-            jacobian: square(forms(&jacobian.concat())?, n),
-            twist: Matrix::vector(forms(&twist)?),
+            inertia,
+            rotation,
+            center,
+            first,
+            jacobian,
+            twist,
             kinetic_energy,
             potential_energy,
-            share: symmetric(&share, &mut forms)?,
+            share: self.symmetric(&share)?,
         })
     }
 
@@ -221,7 +275,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         first: &[Polynomial],
         inertia: &[Polynomial],
         twist: &[Polynomial],
-    ) -> Result<Vec<Polynomial>, Swelling> {
+    ) -> Result<Vec<Polynomial>> {
         let (v, w) = twist.split_at(3);
         let (turned, moved) = (self.cross(w, first)?, self.cross(first, v)?);
         let mut momentum = Vec::with_capacity(6);
@@ -234,7 +288,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         Ok(momentum)
     }
 
-    fn cross(&mut self, a: &[Polynomial], b: &[Polynomial]) -> Result<Vec<Polynomial>, Swelling> {
+    fn cross(&mut self, a: &[Polynomial], b: &[Polynomial]) -> Result<Vec<Polynomial>> {
         let mut cross = Vec::with_capacity(3);
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
@@ -244,97 +298,101 @@ impl<'m, 'g> Steps<'m, 'g> {
         Ok(cross)
     }
 
-    pub(super) fn equations(&mut self) -> Result<Equations, Swelling> {
+    pub(super) fn equations(&mut self) -> Result<Equations> {
+        self.at("T", None);
         let rotors = self.rotors()?;
         let at_rest = self.canonical.polynomial(self.at_rest)?;
         self.V = self.V.plus(Number::ONE, &at_rest);
         let terms = self.terms()?;
-        let L = self.T.plus(-Number::ONE, &self.V);
+        let (T, V) = (self.T.clone(), self.V.clone());
+        let L = T.plus(-Number::ONE, &V);
+        let rotors = match rotors {
+            None => None,
+            Some((energy, mass)) => {
+                Some(Rotors { kinetic_energy: self.form(&energy)?, mass_matrix: self.symmetric(&mass)? })
+            }
+        };
+        let terms = match terms {
+            None => None,
+            Some(Added { energies: [kinetic, potential], mass }) => Some(Terms {
+                kinetic_energy: self.form(&kinetic)?,
+                potential_energy: self.form(&potential)?,
+                mass_matrix: self.symmetric(&mass)?,
+            }),
+        };
+        let kinetic_energy = self.form(&T)?;
+        self.at("V", None);
+        let (potential_at_rest, potential_energy) = (self.form(&at_rest)?, self.form(&V)?);
+        self.at("L", None);
+        let lagrangian = self.form(&L)?;
+        self.at("M", None);
+        let mass_matrix = self.symmetric(&self.M.clone())?;
+        let n = self.v.len();
+        self.at("C", None);
         let (christoffel, C, G) = match self.by_brackets.take() {
             None => {
                 let symbols = self.christoffel()?;
                 let C = self.coriolis_matrix(&symbols)?;
-                (Some(symbols), C, self.gradient(&self.V.clone())?)
+                (Some(symbols), C, self.gradient(&V)?)
             }
             Some((C, G)) => {
-                let C = C.iter().map(|row| self.all(row)).collect::<Result<Vec<_>, _>>()?;
+                let C = C.iter().map(|row| self.all(row)).collect::<Result<Vec<_>>>()?;
                 (None, C, self.all(&G)?)
             }
         };
+        let coriolis_matrix = self.matrix(&C.concat(), n)?;
+        self.at("Γ", None);
+        let christoffel = match christoffel {
+            None => None,
+            Some(symbols) => Some(symbols.iter().map(|symbol| self.symbol(symbol)).collect::<Result<_>>()?),
+        };
+        self.at("G", None);
+        let gravity_forces = self.vector(&G)?;
+        self.at("Υ", None);
         let passive = self.all(&self.passive.clone())?;
         let rates = self.all(&self.rates.clone())?;
         let speeds = self.symbols(&self.v.clone())?;
         let accelerations = self.symbols(&self.a.clone())?;
-        let mut forces = Vec::with_capacity(speeds.len());
+        let mut forces = Vec::with_capacity(n);
         for (i, row) in C.iter().enumerate() {
             let M = self.M[i].clone();
             let force = self.canonical.dot(&M, &accelerations)?;
             let force = force.plus(Number::ONE, &self.canonical.dot(row, &speeds)?).plus(Number::ONE, &G[i]);
             forces.push(force.plus(Number::ONE, &passive[i]));
         }
-        let rows = if christoffel.is_some() { Some(self.rows(&L, &speeds, &accelerations)?) } else { None };
-        let (M, T, V) = (self.M.clone(), self.T.clone(), self.V.clone());
-        let mut forms = |polynomials: &[Polynomial]| self.canonical.forms(self.notation, polynomials, TERMS);
-        let christoffel = match christoffel {
-            None => None,
-            Some(symbols) => {
-                Some(symbols.iter().map(|symbol| symbol.written(&mut forms)).collect::<Result<_, _>>()?)
-            }
+        let rows = match christoffel.is_some() {
+            true => Some(self.rows(&L, &speeds, &accelerations)?),
+            false => None,
         };
-        let rows = match rows {
-            None => None,
-            Some(rows) => Some(
-                rows.iter()
-                    .map(|row| {
-                        let [momentum, rate, by_coordinate] = three(forms(&row[..3])?);
-                        let force = forms(&row[3..])?.swap_remove(0);
-                        Ok(Row { momentum, rate, by_coordinate, force })
-                    })
-                    .collect::<Result<_, _>>()?,
-            ),
-        };
-        let [kinetic_energy, potential_energy, lagrangian] = three(forms(&[T, V, L])?);
-        let n = M.len();
-        let coriolis = forms(&C.concat())?;
         Ok(Equations {
-            rotors: match rotors {
-                None => None,
-                Some((energy, mass)) => Some(Rotors {
-                    kinetic_energy: forms(&[energy])?.swap_remove(0),
-                    mass_matrix: symmetric(&mass, &mut forms)?,
-                }),
-            },
-            terms: match terms {
-                None => None,
-                Some(Added { energies, mass }) => {
-                    let [kinetic_energy, potential_energy, _] = three(forms(&energies)?);
-                    Some(Terms {
-                        kinetic_energy,
-                        potential_energy,
-                        mass_matrix: symmetric(&mass, &mut forms)?,
-                    })
-                }
-            },
-            potential_at_rest: forms(&[at_rest])?.swap_remove(0),
+            rotors,
+            terms,
+            potential_at_rest,
             kinetic_energy,
             potential_energy,
             lagrangian,
-            mass_matrix: symmetric(&M, &mut forms)?,
+            mass_matrix,
             christoffel,
-            coriolis_matrix: Matrix::of_rows(coriolis.chunks(n).map(<[Form]>::to_vec).collect()),
-            gravity_forces: Matrix::vector(forms(&G)?),
+            coriolis_matrix,
+            gravity_forces,
             rows,
             passive: match passive.iter().all(Polynomial::is_zero) {
                 true => None,
-                false => Some(Matrix::vector(forms(&passive)?)),
+                false => Some(self.vector(&passive)?),
             },
-            forces: Matrix::vector(forms(&forces)?),
-            rates: if rates.is_empty() { None } else { Some(Matrix::vector(forms(&rates)?)) },
+            forces: self.vector(&forces)?,
+            rates: if rates.is_empty() { None } else { Some(self.vector(&rates)?) },
         })
     }
 
+    fn symbol(&mut self, symbol: &Symbol) -> Result<Christoffel> {
+        let [a, b, c] = &symbol.derivatives;
+        let derivatives = [self.form(a)?, self.form(b)?, self.form(c)?];
+        Ok(Christoffel { indices: symbol.indices, derivatives, value: self.form(&symbol.value)? })
+    }
+
     /// Adds the rotors to T and M, and returns what they add to each.
-    fn rotors(&mut self) -> Result<Option<(Polynomial, Vec<Vec<Polynomial>>)>, Swelling> {
+    fn rotors(&mut self) -> Result<Option<(Polynomial, Vec<Vec<Polynomial>>)>> {
         let n = self.v.len();
         let unit = |k: usize| (0..n).map(|i| if i == k { Expr::ONE } else { Expr::ZERO }).collect::<Vec<_>>();
         let mut added = Vec::with_capacity(n);
@@ -359,7 +417,7 @@ impl<'m, 'g> Steps<'m, 'g> {
     }
 
     /// Adds terms of one's own to T, V and M, and returns what they are, and what they add to M.
-    fn terms(&mut self) -> Result<Option<Added>, Swelling> {
+    fn terms(&mut self) -> Result<Option<Added>> {
         let [kinetic, potential] = self.terms;
         let [kinetic, potential] =
             [self.canonical.polynomial(kinetic)?, self.canonical.polynomial(potential)?];
@@ -382,7 +440,7 @@ impl<'m, 'g> Steps<'m, 'g> {
         Ok(Some(Added { energies: [kinetic, potential], mass: added }))
     }
 
-    fn christoffel(&mut self) -> Result<Vec<Symbol>, Swelling> {
+    fn christoffel(&mut self) -> Result<Vec<Symbol>> {
         let n = self.v.len();
         let mut dM = vec![vec![vec![]; n]; n];
         for i in 0..n {
@@ -408,12 +466,12 @@ impl<'m, 'g> Steps<'m, 'g> {
     }
 
     /// `C_ij = Σ_k Γ_ijk·q̇_k`
-    fn coriolis_matrix(&mut self, symbols: &[Symbol]) -> Result<Vec<Vec<Polynomial>>, Swelling> {
+    fn coriolis_matrix(&mut self, symbols: &[Symbol]) -> Result<Vec<Vec<Polynomial>>> {
         let n = self.v.len();
         let speeds = self.symbols(&self.v.clone())?;
         let mut C = vec![vec![Polynomial::zero(); n]; n];
         for Symbol { indices: [i, j, k], value, .. } in symbols {
-            let mut add = |j: usize, k: usize| -> Result<(), Swelling> {
+            let mut add = |j: usize, k: usize| -> Result<()> {
                 C[*i][j] = C[*i][j].plus(Number::ONE, &self.canonical.product(value, &speeds[k])?);
                 Ok(())
             };
@@ -431,34 +489,44 @@ impl<'m, 'g> Steps<'m, 'g> {
         L: &Polynomial,
         speeds: &[Polynomial],
         accelerations: &[Polynomial],
-    ) -> Result<Vec<[Polynomial; 4]>, Swelling> {
+    ) -> Result<Vec<Row>> {
         let by_q = self.gradient(L)?;
         let mut rows = Vec::with_capacity(speeds.len());
         for (i, by_q) in by_q.into_iter().enumerate() {
+            self.at("Υ", Some(i));
             let momentum = self.canonical.derivative(L, self.v[i])?;
             let mut by_v = Vec::with_capacity(speeds.len());
-            for &speed in &self.v {
+            for speed in self.v.clone() {
                 by_v.push(self.canonical.derivative(&momentum, speed)?);
             }
             let along = self.gradient(&momentum)?;
             let rate = self.canonical.dot(&along, speeds)?;
             let rate = rate.plus(Number::ONE, &self.canonical.dot(&by_v, accelerations)?);
             let force = rate.plus(-Number::ONE, &by_q);
-            rows.push([momentum, rate, by_q, force]);
+            rows.push(Row {
+                momentum: self.form(&momentum)?,
+                rate: self.form(&rate)?,
+                by_coordinate: self.form(&by_q)?,
+                force: self.form(&force)?,
+            });
         }
         Ok(rows)
     }
 
-    fn gradient(&mut self, polynomial: &Polynomial) -> Result<Vec<Polynomial>, Swelling> {
-        self.q.iter().map(|&symbol| self.canonical.derivative(polynomial, symbol)).collect()
+    fn gradient(&mut self, polynomial: &Polynomial) -> Result<Vec<Polynomial>> {
+        let mut gradient = Vec::with_capacity(self.q.len());
+        for symbol in self.q.clone() {
+            gradient.push(self.canonical.derivative(polynomial, symbol)?);
+        }
+        Ok(gradient)
     }
 
-    fn symbols(&mut self, symbols: &[SymbolId]) -> Result<Vec<Polynomial>, Swelling> {
-        symbols.iter().map(|&symbol| self.canonical.symbol(symbol)).collect()
+    fn symbols(&mut self, symbols: &[SymbolId]) -> Result<Vec<Polynomial>> {
+        symbols.iter().map(|&symbol| Ok(self.canonical.symbol(symbol)?)).collect()
     }
 
-    fn all(&mut self, exprs: &[Expr<'g>]) -> Result<Vec<Polynomial>, Swelling> {
-        exprs.iter().map(|&expr| self.canonical.polynomial(expr)).collect()
+    fn all(&mut self, exprs: &[Expr<'g>]) -> Result<Vec<Polynomial>> {
+        exprs.iter().map(|&expr| Ok(self.canonical.polynomial(expr)?)).collect()
     }
 }
 
@@ -475,30 +543,4 @@ struct Symbol {
     indices: [usize; 3],
     derivatives: [Polynomial; 3],
     value: Polynomial,
-}
-
-impl Symbol {
-    fn written(
-        &self,
-        forms: &mut impl FnMut(&[Polynomial]) -> Result<Vec<Form>, Swelling>,
-    ) -> Result<Christoffel, Swelling> {
-        let derivatives = three(forms(&self.derivatives)?);
-        let value = forms(std::slice::from_ref(&self.value))?.swap_remove(0);
-        Ok(Christoffel { indices: self.indices, derivatives, value })
-    }
-}
-
-/// The first three of some forms.
-fn three(forms: Vec<Form>) -> [Form; 3] {
-    let mut forms = forms.into_iter();
-    std::array::from_fn(|_| forms.next().unwrap_or(Form::ZERO))
-}
-
-/// A symmetric matrix as it is written.
-fn symmetric(
-    rows: &[Vec<Polynomial>],
-    forms: &mut impl FnMut(&[Polynomial]) -> Result<Vec<Form>, Swelling>,
-) -> Result<Matrix, Swelling> {
-    let upper = rows.iter().enumerate().map(|(k, row)| forms(&row[k..]));
-    Ok(Matrix::symmetric(upper.collect::<Result<_, _>>()?))
 }

@@ -8,7 +8,7 @@ use crate::model::{Frame, Link, Motion, Tree};
 use crate::spatial::{Matrix3, Pose, Scalar, Vector3};
 
 /// `X_PB(q)`: the pose of a link in its parent.
-pub(super) fn pose_in_parent<S: Scalar>(link: &Link<S>, q: &[S]) -> Pose<S> {
+pub(in crate::mechanics) fn pose_in_parent<S: Scalar>(link: &Link<S>, q: &[S]) -> Pose<S> {
     let at = link.drive.q;
     let coordinate = || link.drive.ratio * q[at] + link.drive.offset;
     let turned = |at: usize| Pose::rotation(Matrix3::of_quaternion([q[at], q[at + 1], q[at + 2], q[at + 3]]));
@@ -23,7 +23,7 @@ pub(super) fn pose_in_parent<S: Scalar>(link: &Link<S>, q: &[S]) -> Pose<S> {
 
 /// `S_B` by columns: for each speed of the joint, which of the robot's it is, and the motion of the link against its
 /// parent, in the link's frame, while that one is one.
-pub(super) fn motion_subspace<S: Scalar>(link: &Link<S>) -> Vec<(usize, Six<S>)> {
+pub(in crate::mechanics) fn motion_subspace<S: Scalar>(link: &Link<S>) -> Vec<(usize, Six<S>)> {
     let unit = |k: usize| {
         let mut unit = Six::zero();
         unit.0[k] = link.drive.ratio;

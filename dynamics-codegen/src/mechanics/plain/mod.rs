@@ -27,6 +27,7 @@ pub use dense::{Cholesky, Rows};
 pub use dual::Dual;
 pub use energy::{kinetic_energy, lagrangian, potential_energy};
 pub use kinematics::{body_jacobian, link_poses, link_velocities, pose, world_jacobian};
+pub(super) use kinematics::{motion_subspace, pose_in_parent};
 pub use mass_matrix::mass_matrix;
 pub use oracle::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives, Oracle};
 pub use rnea::{bias_forces, gravity_forces, inverse_dynamics};
