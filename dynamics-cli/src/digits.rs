@@ -24,14 +24,12 @@ pub(crate) fn short(form: &Form) -> Form {
     }
 }
 
-/// Whether a number in the form is another one, rounded; the last bits of what was computed are no digits.
+/// Whether a number in the form is rounded, or may have been before: it has as many digits as are written.
 pub(crate) fn is_rounded(form: &Form) -> bool {
     match form {
-        Form::Number(number) => {
-            let value = number.to_f64();
-            let short = format!("{:.*e}", DIGITS - 1, value).parse().unwrap_or(value);
-            let is_long = matches!(number, Number::Float(_)) || !has_few_digits(*number);
-            is_long && (value - short).abs() > 1e-12 * value.abs()
+        Form::Number(value) => {
+            let digits: String = value.exact_text().chars().filter(char::is_ascii_digit).collect();
+            digits.trim_start_matches('0').len() >= DIGITS
         }
         _ => form.parts().into_iter().any(is_rounded),
     }

@@ -173,8 +173,8 @@ impl Text<'_, '_> {
         let is_rounded = self.blocks.iter().flat_map(Block::forms).any(is_rounded);
         if is_rounded && let Some(Block::Text(first)) = self.blocks.get_mut(1) {
             first.extend(words(&format!(
-                " Numbers of more than {DIGITS} digits are rounded to these here; the code that is generated has all of \
-                 them."
+                " Numbers have up to {DIGITS} digits here, and are rounded where they would have more; the code that is generated \
+                 has all of them."
             )));
         }
         self.blocks.iter_mut().for_each(Block::shorten);
