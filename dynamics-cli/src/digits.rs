@@ -24,6 +24,17 @@ pub(crate) fn short(form: &Form) -> Form {
     }
 }
 
+/// Whether a number in the form is rounded, or may have been before: it has as many digits as are written.
+pub(crate) fn is_rounded(form: &Form) -> bool {
+    match form {
+        Form::Number(value) => {
+            let digits: String = value.exact_text().chars().filter(char::is_ascii_digit).collect();
+            digits.trim_start_matches('0').len() >= DIGITS
+        }
+        _ => form.parts().into_iter().any(is_rounded),
+    }
+}
+
 fn has_few_digits(value: Number) -> bool {
     value.exact_text().chars().filter(char::is_ascii_digit).count() <= DIGITS
 }

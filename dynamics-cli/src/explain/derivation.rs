@@ -16,7 +16,7 @@ use dynamics_codegen::model::{Model, Passive};
 use dynamics_codegen::symbolic::Expr;
 
 use super::document::{Block, Math, Side, indexed, math, words};
-use crate::digits::{DIGITS, short};
+use crate::digits::{DIGITS, is_rounded};
 
 /// Writes all steps, to the one that would be too long.
 pub(super) fn document(model: &Model<'_>, lecture: &Lecture) -> Vec<Block> {
@@ -171,13 +171,11 @@ impl Text<'_, '_> {
 
     /// The blocks with numbers that people can read; if any is rounded, the first text says so.
     fn rounded(mut self) -> Vec<Block> {
-        let notation = &self.lecture.notation;
-        let differs = |form: &Form| form.unicode(notation) != short(form).unicode(notation);
-        let is_rounded = self.blocks.iter().flat_map(Block::forms).any(differs);
+        let is_rounded = self.blocks.iter().flat_map(Block::forms).any(is_rounded);
         if is_rounded && let Some(Block::Text(first)) = self.blocks.get_mut(1) {
             first.extend(words(&format!(
-                " Numbers of more than {DIGITS} digits are rounded to these here; the code that is generated has all of \
-                 them."
+                " Numbers have up to {DIGITS} digits here, and are rounded where they would have more; the code that is generated \
+                 has all of them."
             )));
         }
         self.blocks.iter_mut().for_each(Block::shorten);

@@ -4,7 +4,7 @@ use dynamics_codegen::mechanics::lecture::{
     Excess, Inertia, MOST_PRODUCTS, MOST_TERMS, MOST_TERMS_IN_ALL, Part, Recursion, TooLong,
 };
 
-use dynamics_codegen::closed::Matrix;
+use dynamics_codegen::closed::{Form, Matrix, Swelling};
 use dynamics_codegen::mechanics::equations::Argument;
 
 use super::super::document::{Block, Math, Piece, Side, indexed, math, words};
@@ -231,8 +231,8 @@ impl Text<'_, '_> {
             kinetic_latex += &format!(" + \\tfrac12 {0}^T M_{{\\text{{rotors}}}} {0}", v.latex);
         }
         let [of_kinetic, of_potential] = &recursion.terms;
-        if !of_kinetic.is_zero() {
-            self.equation([letter("T_terms", "T_{\\text{terms}}"), Side::Form(of_kinetic.clone())]);
+        if is_there(of_kinetic) {
+            self.term(["T_terms", "T_{\\text{terms}}"], of_kinetic);
             kinetic += " + T_terms";
             kinetic_latex += " + T_{\\text{terms}}";
         }
@@ -242,14 +242,24 @@ impl Text<'_, '_> {
             potential += " + V₀";
             potential_latex += " + V_0";
         }
-        if !of_potential.is_zero() {
-            self.equation([letter("V_terms", "V_{\\text{terms}}"), Side::Form(of_potential.clone())]);
+        if is_there(of_potential) {
+            self.term(["V_terms", "V_{\\text{terms}}"], of_potential);
             potential += " + V_terms";
             potential_latex += " + V_{\\text{terms}}";
         }
         self.text("In all, and with the Lagrangian $L = T − V|L = T - V$:");
         self.equation([letter("T", "T"), letter(&kinetic, &kinetic_latex)]);
         self.equation([letter("V", "V"), letter(&potential, &potential_latex)]);
+    }
+
+    /// A sum of terms that are given beside the bodies.
+    fn term(&mut self, [unicode, latex]: [&str; 2], term: &Result<Form, Swelling>) {
+        match term {
+            Ok(form) => self.equation([letter(unicode, latex), Side::Form(form.clone())]),
+            Err(Swelling) => self.text(&format!(
+                "The terms ${unicode}|{latex}$ that are given beside the bodies are too long once places are written in coordinates."
+            )),
+        }
     }
 
     /// M, C and G.
@@ -265,7 +275,7 @@ impl Text<'_, '_> {
             }
             letter(&text, &latex)
         };
-        let has_terms = !of_kinetic.is_zero();
+        let has_terms = is_there(of_kinetic);
         self.heading("The mass matrix");
         self.text(&format!("With $V_i = J_i·{0}|V_i = J_i {1}$ the kinetic energy is $T = ½ {0}ᵀ·M·{0}|T = \\tfrac12 {1}^T M {1}$ with", v.unicode, v.latex));
         self.equation([
@@ -332,7 +342,7 @@ impl Text<'_, '_> {
         self.text(&format!(
             "$ℬ_i|\\mathcal B_i$ is skew, so that $Ṁ = C + Cᵀ|\\dot M = C + C^T$. {same} (S. Echeandia and P. Wensing, 2021).{of_terms}"
         ));
-        let has_potential = !of_potential.is_zero();
+        let has_potential = is_there(of_potential);
         if !has_gravity && !has_potential {
             self.heading("Potential forces");
             return self.text("$V|V$ is the same in every configuration, and $G = 0|G = 0$.");
@@ -357,6 +367,11 @@ impl Text<'_, '_> {
         };
         self.equation([letter("G", "G"), side]);
     }
+}
+
+/// Whether there are such terms.
+fn is_there(term: &Result<Form, Swelling>) -> bool {
+    term.as_ref().map_or(true, |form| !form.is_zero())
 }
 
 /// A letter of a part as its carrier sees it.

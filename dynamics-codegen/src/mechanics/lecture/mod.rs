@@ -67,7 +67,7 @@ pub enum Excess {
 /// All steps. Where closed forms would be too long to read, there is the recursion instead.
 #[derive(Clone, Debug)]
 pub struct Lecture {
-    /// What the symbols are called: those of [`Inputs`](super::equations::Inputs).
+    /// What the symbols are called: those of [`Inputs`].
     pub notation: Notation,
     /// The robot where its coordinates are zero.
     pub figure: Result<Figure, Swelling>,

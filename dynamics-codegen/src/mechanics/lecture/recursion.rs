@@ -24,8 +24,8 @@ pub struct Recursion {
     pub parts: Vec<Part>,
     /// What rotors add to M, on its diagonal; none without rotors.
     pub rotors: Option<Matrix>,
-    /// What terms of one's own add to T and to V.
-    pub terms: [Form; 2],
+    /// What terms of one's own add to T and to V; those of bodies far out may be too long.
+    pub terms: [Result<Form, Swelling>; 2],
     /// What the mass that stands still adds to V.
     pub potential_at_rest: Form,
     /// The forces of dampers, friction and springs on the left-hand side, nothing where nothing acts.
@@ -125,7 +125,7 @@ pub fn recursion<'g>(
     }
     let rest = -tree.gravity.dot(tree.base.first);
     let terms = [plain::kinetic_terms(tree, &q, &v), plain::potential_terms(tree, &q)];
-    let [kinetic, potential] = [write(&terms[..1])?.swap_remove(0), write(&terms[1..])?.swap_remove(0)];
+    let [kinetic, potential] = terms.map(|term| Ok(write(&[term])?.swap_remove(0)));
     let some = |exprs: Vec<Expr<'g>>| -> Result<Option<Matrix>, Swelling> {
         let is_there = exprs.iter().any(|expr| !expr.is_zero());
         if is_there { Ok(Some(Matrix::vector(write(&exprs)?))) } else { Ok(None) }
