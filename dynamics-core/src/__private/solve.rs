@@ -394,19 +394,19 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize>(
     }
 }
 
-/// Writes the transpose of a matrix that is zero above the diagonal.
+/// Writes the transpose of a matrix that is zero above the diagonal, both by columns.
 #[inline]
 fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut [[T; N]; N]) {
     *result = [[T::zero(); N]; N];
-    let (blocks, rest) = m.as_chunks::<STRIP>();
-    for (block, rows) in blocks.iter().enumerate() {
-        for (strip, columns) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().take(block + 1) {
-            write_tile(columns, block, transposed(tile(rows, strip)));
+    for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate() {
+        for (strip, columns_of_result) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().skip(block)
+        {
+            write_tile(columns_of_result, block, transposed(tile(columns, strip)));
         }
     }
-    for (k, row) in rest.iter().enumerate() {
-        for (column, value) in result.iter_mut().zip(row) {
-            set(column, N / STRIP * STRIP + k, *value);
+    for (k, column) in result.iter_mut().enumerate().skip(N / STRIP * STRIP) {
+        for (value, m) in column.iter_mut().zip(m) {
+            *value = entry(m, k);
         }
     }
 }
