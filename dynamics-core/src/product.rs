@@ -9,7 +9,11 @@ use crate::scalar::Scalar;
 /// So many rows of a product are summed at a time: what is one register, in lanes.
 pub(crate) const STRIP: usize = 4;
 /// So many columns, which keeps the sums in registers.
-pub(crate) const COLUMNS: usize = 8;
+pub(crate) const COLUMNS: usize = if WIDE { 8 } else { 4 };
+/// So many rows of four columns, for the same reason.
+pub(crate) const LONG_STRIP: usize = if WIDE { 8 } else { 4 };
+/// Whether a register holds a strip of doubles.
+const WIDE: bool = cfg!(target_feature = "avx");
 
 /// `A·B`, R×C.
 ///
@@ -25,11 +29,11 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
     let (factors, factors_of_rest) = b.data.0.as_chunks::<COLUMNS>();
     for (block, factors) in blocks.iter_mut().zip(factors) {
-        multiply::<T, false, _, _, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), block);
+        multiply(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), block);
     }
     for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
         let (column, factors) = (core::array::from_mut(column), core::array::from_ref(factors));
-        multiply::<T, false, _, _, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), column);
+        multiply(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), column);
     }
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
@@ -50,16 +54,10 @@ pub(crate) fn row_of<T: Scalar, const K: usize, const W: usize>(columns: &[[T; K
     row
 }
 
-/// Writes W columns of a product, or adds it to them: in each of the strips of rows the sum of column `k` of `a` times
-/// `factors(k)` over all `k` in `terms(strip)`. The sums of a strip stay in registers.
+/// Writes W columns of a product: in each of the strips of rows the sum of column `k` of `a` times `factors(k)` over
+/// all `k` in `terms(strip)`.
 #[inline(always)]
-pub(crate) fn multiply<
-    T: Scalar,
-    const ADD: bool,
-    const R: usize,
-    const W: usize,
-    I: Iterator<Item = usize>,
->(
+pub(crate) fn multiply<T: Scalar, const R: usize, const W: usize, I: Iterator<Item = usize>>(
     a: &[[T; R]],
     factors: impl Fn(usize) -> [T; W],
     terms: impl Fn(usize) -> I,
@@ -67,50 +65,81 @@ pub(crate) fn multiply<
     result: &mut [[T; R]; W],
 ) {
     for strip in strips {
-        if strip < R / STRIP {
-            let mut sums = [[T::zero(); STRIP]; W];
-            if ADD {
-                for (sums, column) in sums.iter_mut().zip(&*result) {
-                    *sums = column.as_chunks().0.get(strip).copied().unwrap_or(*sums);
-                }
+        let mut sums = [[T::zero(); STRIP]; W];
+        add_products(a, &factors, terms(strip), strip, &mut sums);
+        write_strip(result, strip, &sums);
+    }
+}
+
+/// Adds to a strip of S rows of a product column `k` of `a` times `factors(k)`, for all `k` in `terms`. The sums stay in
+/// registers.
+#[inline(always)]
+pub(crate) fn add_products<T: Scalar, const R: usize, const W: usize, const S: usize>(
+    a: &[[T; R]],
+    factors: impl Fn(usize) -> [T; W],
+    terms: impl Iterator<Item = usize>,
+    strip: usize,
+    sums: &mut [[T; S]; W],
+) {
+    // Spelt out: in a reference they would be in memory.
+    let mut own = *sums;
+    if strip < R / S {
+        for k in terms {
+            if let Some(part) = a.get(k).and_then(|column| column.as_chunks::<S>().0.get(strip)) {
+                add_multiples(&mut own, part, factors(k));
             }
-            for k in terms(strip) {
-                if let Some(part) = a.get(k).and_then(|column| column.as_chunks::<STRIP>().0.get(strip)) {
-                    add_multiples(&mut sums, part, factors(k));
-                }
+        }
+    } else {
+        // What is left: fewer rows than a strip has.
+        for k in terms {
+            if let Some(column) = a.get(k) {
+                add_multiples(&mut own, column.as_chunks::<S>().1, factors(k));
             }
-            for (column, sums) in result.iter_mut().zip(sums) {
-                if let Some(part) = column.as_chunks_mut::<STRIP>().0.get_mut(strip) {
-                    *part = sums;
-                }
-            }
-        } else {
-            // What is left: fewer rows than a strip has.
-            let mut sums = [[T::zero(); STRIP]; W];
-            if ADD {
-                for (sums, column) in sums.iter_mut().zip(&*result) {
-                    for (sum, value) in sums.iter_mut().zip(column.as_chunks::<STRIP>().1) {
-                        *sum = *value;
-                    }
-                }
-            }
-            for k in terms(strip) {
-                if let Some(column) = a.get(k) {
-                    add_multiples(&mut sums, column.as_chunks::<STRIP>().1, factors(k));
-                }
-            }
-            for (column, sums) in result.iter_mut().zip(sums) {
-                for (value, sum) in column.as_chunks_mut::<STRIP>().1.iter_mut().zip(sums) {
-                    *value = sum;
-                }
-            }
+        }
+    }
+    *sums = own;
+}
+
+/// A strip of each column; zeros beyond the last row.
+#[inline(always)]
+pub(crate) fn strip_of<T: Scalar, const R: usize, const W: usize, const S: usize>(
+    columns: &[[T; R]; W],
+    strip: usize,
+) -> [[T; S]; W] {
+    let mut sums = [[T::zero(); S]; W];
+    for (sums, column) in sums.iter_mut().zip(columns) {
+        let (chunks, rest) = column.as_chunks();
+        match chunks.get(strip) {
+            Some(part) => *sums = *part,
+            None => sums.iter_mut().zip(rest).for_each(|(sum, value)| *sum = *value),
+        }
+    }
+    sums
+}
+
+/// Writes a strip of each column, as far as it has rows.
+#[inline(always)]
+pub(crate) fn write_strip<T: Scalar, const R: usize, const W: usize, const S: usize>(
+    columns: &mut [[T; R]; W],
+    strip: usize,
+    sums: &[[T; S]; W],
+) {
+    for (column, sums) in columns.iter_mut().zip(sums) {
+        let (chunks, rest) = column.as_chunks_mut();
+        match chunks.get_mut(strip) {
+            Some(part) => *part = *sums,
+            None => rest.iter_mut().zip(sums).for_each(|(value, sum)| *value = *sum),
         }
     }
 }
 
 /// Adds to each sum the part, times its own factor.
 #[inline(always)]
-fn add_multiples<T: Scalar, const W: usize>(sums: &mut [[T; STRIP]; W], part: &[T], factors: [T; W]) {
+fn add_multiples<T: Scalar, const W: usize, const S: usize>(
+    sums: &mut [[T; S]; W],
+    part: &[T],
+    factors: [T; W],
+) {
     for (sums, factor) in sums.iter_mut().zip(factors) {
         for (sum, a) in sums.iter_mut().zip(part) {
             *sum = a.mul_add(factor, *sum);

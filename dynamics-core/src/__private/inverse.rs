@@ -5,7 +5,7 @@
 use nalgebra::SMatrix;
 
 use super::columns;
-use super::solve::{EliminationTree, Factors};
+use super::solve::{EliminationTree, Factors, invert};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
@@ -41,7 +41,7 @@ pub fn inverse_of<T: Scalar, const N: usize>(
     tree: &'static EliminationTree<N>,
 ) -> SMatrix<T, N, N> {
     let mut inverse = zeros();
-    Factors::of(&m.data.0, tree).inverse(&mut inverse.data.0);
+    invert(&m.data.0, tree, &mut inverse.data.0);
     inverse
 }
 

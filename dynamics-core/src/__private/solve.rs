@@ -9,7 +9,9 @@
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, §6.5; J. Du Croz, N. Higham, *Stability of methods
 //! for matrix inversion*, IMA Journal of Numerical Analysis 12, 1992, for the inverse of a triangular matrix.
 
-use crate::product::{COLUMNS, STRIP, multiply, row_of, strips};
+use crate::product::{
+    COLUMNS, LONG_STRIP, STRIP, add_products, multiply, row_of, strip_of, strips, write_strip,
+};
 use crate::scalar::Scalar;
 
 /// Where the factors of a matrix have entries: at each joint and those between it and the base.
@@ -121,9 +123,9 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         let zeros = [[T::zero(); N]; N];
         let mut factors = Self { tree, r: zeros, r_transposed: zeros, inverse_d: [T::one(); N] };
         let Self { r, r_transposed, inverse_d, .. } = &mut factors;
-        factor(m, tree, r, inverse_d);
-        invert_triangular(r, tree, r_transposed);
-        transpose_triangular(r_transposed, r);
+        factor(m, tree, r_transposed, inverse_d);
+        invert_triangular(r_transposed, tree, r);
+        transpose_triangular(r, r_transposed);
         factors
     }
 
@@ -161,39 +163,76 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         let tree = self.tree;
         let mut y = [[T::zero(); N]; W];
         let beyond = |strip: usize| tree.beyond(strip);
-        multiply::<T, false, _, _, _>(&self.r_transposed, |k| row_of(b, k), beyond, 0..strips(N), &mut y);
+        multiply(&self.r_transposed, |k| row_of(b, k), beyond, 0..strips(N), &mut y);
         for column in &mut y {
             scale(column, inverse_d);
         }
         let below = |strip: usize| tree.below(strip);
-        multiply::<T, false, _, _, _>(&self.r, |k| row_of(&y, k), below, 0..strips(N), result);
+        multiply(&self.r, |k| row_of(&y, k), below, 0..strips(N), result);
     }
 
     /// Writes `M⁻¹`, both halves.
     #[inline]
     pub fn inverse(&self, result: &mut [[T; N]; N]) {
-        let (blocks, rest) = result.as_chunks_mut::<STRIP>();
-        let (of_blocks, of_rest) = self.r_transposed.as_chunks::<STRIP>();
-        for (block, (result, rows)) in blocks.iter_mut().zip(of_blocks).enumerate() {
-            self.inverse_columns(rows, block, result);
-        }
-        for (result, row) in rest.iter_mut().zip(of_rest) {
-            self.inverse_columns(core::array::from_ref(row), N / STRIP, core::array::from_mut(result));
-        }
-        mirror(result);
+        inverse(&self.r, &self.inverse_d, self.tree, result);
     }
+}
 
-    /// Writes columns of the given block from its first row on.
-    #[inline(always)]
-    fn inverse_columns<const W: usize>(&self, rows: &[[T; N]; W], block: usize, result: &mut [[T; N]; W]) {
-        let mut y = [[T::zero(); N]; W];
-        for (y, row) in y.iter_mut().zip(rows) {
-            for ((y, x), inverse) in y.iter_mut().zip(row).zip(&self.inverse_d) {
-                *y = *x * *inverse;
-            }
+/// Writes the inverse of a symmetric positive definite matrix, of which the rows up to the diagonal are read.
+///
+/// # Cost
+///
+/// N³/2 multiplications and additions, fused where the target can; N divisions.
+#[inline]
+pub(super) fn invert<T: Scalar, const N: usize>(
+    m: &[[T; N]; N],
+    tree: &EliminationTree<N>,
+    result: &mut [[T; N]; N],
+) {
+    let (mut r, mut inverse_d) = ([[T::zero(); N]; N], [T::one(); N]);
+    factor(m, tree, result, &mut inverse_d);
+    invert_triangular(result, tree, &mut r);
+    inverse(&r, &inverse_d, tree, result);
+}
+
+/// Writes `R D⁻¹ Rᵀ`, both halves.
+#[inline]
+fn inverse<T: Scalar, const N: usize>(
+    r: &[[T; N]; N],
+    inverse_d: &[T; N],
+    tree: &EliminationTree<N>,
+    result: &mut [[T; N]; N],
+) {
+    let (blocks, rest) = result.as_chunks_mut::<STRIP>();
+    for (block, result) in blocks.iter_mut().enumerate() {
+        inverse_columns(r, inverse_d, tree, block * STRIP, result);
+    }
+    for (k, column) in rest.iter_mut().enumerate() {
+        inverse_columns(r, inverse_d, tree, N / STRIP * STRIP + k, core::array::from_mut(column));
+    }
+    mirror(result);
+}
+
+/// Writes the columns from `first` on, from their first row on.
+#[inline(always)]
+fn inverse_columns<T: Scalar, const N: usize, const W: usize>(
+    r: &[[T; N]; N],
+    inverse_d: &[T; N],
+    tree: &EliminationTree<N>,
+    first: usize,
+    result: &mut [[T; N]; W],
+) {
+    let factors = |k: usize| {
+        let mut row: [T; W] = r.get(k).map_or([T::zero(); W], |column| part(column, first));
+        for x in &mut row {
+            *x *= entry(inverse_d, k);
         }
-        let below = |_: usize| self.tree.below(block);
-        multiply::<T, false, _, _, _>(&self.r, |k| row_of(&y, k), below, block..strips(N), result);
+        row
+    };
+    for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
+        let mut sums = [[T::zero(); LONG_STRIP]; W];
+        add_products(r, factors, tree.below(first / STRIP), strip, &mut sums);
+        write_strip(result, strip, &sums);
     }
 }
 
@@ -234,91 +273,140 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize>(
     minus_dl: &mut [[T; N]; N],
     inverse_d: &mut [T; N],
 ) {
-    let mut rows = *m;
-    let strip = first / STRIP;
-    let beyond = |_: usize| tree.beyond(strip).filter(|&k| k >= first + W);
-    let factors = |k: usize| minus_dl.get(k).map_or([T::zero(); W], |row| part(row, first));
-    multiply::<T, true, _, _, _>(l, factors, beyond, 0..strip + 1, &mut rows);
-    for w in (0..W).rev() {
-        let k = first + w;
-        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
-        let (Some(l), Some(minus_dl), Some(d)) = (l.get_mut(k), minus_dl.get_mut(k), inverse_d.get_mut(k))
-        else {
-            continue;
-        };
-        *d = T::one() / entry(row, k);
-        for ((l, minus_dl), x) in l.iter_mut().zip(&mut *minus_dl).zip(&*row) {
-            (*l, *minus_dl) = (*x * *d, -*x);
+    let end = first + W;
+    let (Some((l, known)), Some((minus_dl, multiples)), Some(inverse_d)) =
+        (l.split_at_mut_checked(end), minus_dl.split_at_mut_checked(end), inverse_d.get_mut(first..end))
+    else {
+        return;
+    };
+    let (Some(l), Some(minus_dl)) = (l.last_chunk_mut::<W>(), minus_dl.last_chunk_mut::<W>()) else { return };
+    let beyond = || tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));
+    let factors = |k: usize| multiples.get(k).map_or([T::zero(); W], |row| part(row, first));
+    // What is on the diagonal by itself, and first: all that waits is in there.
+    let mut own = [[T::zero(); W]; W];
+    for (own, row) in own.iter_mut().zip(m) {
+        *own = part(row, first);
+    }
+    for k in beyond() {
+        let row: [T; W] = known.get(k).map_or([T::zero(); W], |row| part(row, first));
+        for (own, factor) in own.iter_mut().zip(factors(k)) {
+            for (x, l) in own.iter_mut().zip(row) {
+                *x = factor.mul_add(l, *x);
+            }
         }
-        for (v, other) in before.iter_mut().enumerate() {
-            let factor = entry(minus_dl, first + v);
-            for (x, l) in other.iter_mut().zip(&*l) {
-                *x = factor.mul_add(*l, *x);
+    }
+    let (minus_l, inverses) = factor_block(own);
+    inverse_d.copy_from_slice(&inverses);
+    for strip in (0..=first / LONG_STRIP).rev() {
+        let mut rows: [[T; LONG_STRIP]; W] = strip_of(m, strip);
+        add_products(known, factors, beyond(), strip, &mut rows);
+        eliminate(&minus_l, &mut rows);
+        let (mut scaled, mut negated) = (rows, rows);
+        for ((scaled, negated), inverse) in scaled.iter_mut().zip(&mut negated).zip(inverses) {
+            for (x, y) in scaled.iter_mut().zip(negated) {
+                (*x, *y) = (*x * inverse, -*y);
+            }
+        }
+        write_strip(l, strip, &scaled);
+        write_strip(minus_dl, strip, &negated);
+    }
+}
+
+/// `−L` below the diagonal, and `1/D`, of a small matrix.
+#[inline(always)]
+fn factor_block<T: Scalar, const W: usize>(mut m: [[T; W]; W]) -> ([[T; W]; W], [T; W]) {
+    let (mut minus_l, mut inverse_d) = ([[T::zero(); W]; W], [T::one(); W]);
+    for w in (0..W).rev() {
+        let Some((before, [row, ..])) = m.split_at_mut_checked(w) else { continue };
+        let inverse = T::one() / entry(row, w);
+        set(&mut inverse_d, w, inverse);
+        let Some(minus_l) = minus_l.get_mut(w) else { continue };
+        for ((l, other), x) in minus_l.iter_mut().zip(before).zip(&*row) {
+            *l = -*x * inverse;
+            for (y, x) in other.iter_mut().zip(&*row) {
+                *y = l.mul_add(*x, *y);
+            }
+        }
+    }
+    (minus_l, inverse_d)
+}
+
+/// Takes from each of W rows what it owes to those after it: `minus_l` times these.
+#[inline(always)]
+fn eliminate<T: Scalar, const W: usize, const S: usize>(minus_l: &[[T; W]; W], rows: &mut [[T; S]; W]) {
+    for (w, minus_l) in minus_l.iter().enumerate().rev() {
+        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
+        for (other, factor) in before.iter_mut().zip(minus_l) {
+            for (x, value) in other.iter_mut().zip(&*row) {
+                *x = factor.mul_add(*value, *x);
             }
         }
     }
 }
 
-/// Writes the rows of `L⁻¹`: each that of the identity less those before it, `L[i][j]` times.
+/// Writes the columns of `L⁻¹`: each that of the identity less those after it, `L[i][j]` times.
 #[inline]
 fn invert_triangular<T: Scalar, const N: usize>(
     l: &[[T; N]; N],
     tree: &EliminationTree<N>,
     inverse: &mut [[T; N]; N],
 ) {
-    let (blocks, rest) = l.as_chunks::<STRIP>();
-    for (block, rows) in blocks.iter().enumerate() {
-        invert_rows(rows, block * STRIP, tree, inverse);
+    for k in (N / STRIP * STRIP..N).rev() {
+        invert_columns::<T, N, 1>(l, k, tree, inverse);
     }
-    for (k, row) in rest.iter().enumerate() {
-        invert_rows(core::array::from_ref(row), N / STRIP * STRIP + k, tree, inverse);
+    for block in (0..N / STRIP).rev() {
+        invert_columns::<T, N, STRIP>(l, block * STRIP, tree, inverse);
     }
 }
 
-/// The same of the rows from `first` on; all before them are known.
+/// The same of the columns from `first` on; all after them are known.
 #[inline(always)]
-fn invert_rows<T: Scalar, const N: usize, const W: usize>(
-    l: &[[T; N]; W],
+fn invert_columns<T: Scalar, const N: usize, const W: usize>(
+    l: &[[T; N]; N],
     first: usize,
     tree: &EliminationTree<N>,
     inverse: &mut [[T; N]; N],
 ) {
-    let mut rows = [[T::zero(); N]; W];
-    for (w, row) in rows.iter_mut().enumerate() {
-        if let Some(diagonal) = row.get_mut(first + w) {
-            *diagonal = T::one();
+    let end = first + W;
+    let Some((columns, known)) = inverse.split_at_mut_checked(end) else { return };
+    let Some(columns) = columns.last_chunk_mut::<W>() else { return };
+    let minus = |k: usize| {
+        let mut row: [T; W] = l.get(k).map_or([T::zero(); W], |row| part(row, first));
+        for x in &mut row {
+            *x = -*x;
         }
+        row
+    };
+    let mut own = [[T::zero(); W]; W];
+    for (w, own) in own.iter_mut().enumerate() {
+        *own = minus(first + w);
     }
-    let block = first / STRIP;
-    let below = |_: usize| tree.below(block).take_while(|&k| k < first);
-    multiply::<T, true, _, _, _>(inverse, |k| row_of(l, k).map(|x| -x), below, 0..block + 1, &mut rows);
-    for (w, l) in l.iter().enumerate() {
-        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
-        for (v, other) in before.iter().enumerate() {
-            let factor = -entry(l, first + v);
-            for (x, value) in row.iter_mut().zip(other) {
-                *x = factor.mul_add(*value, *x);
-            }
+    for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
+        let mut sums = [[T::zero(); LONG_STRIP]; W];
+        for (w, sums) in sums.iter_mut().enumerate() {
+            set(sums, (first + w).wrapping_sub(strip * LONG_STRIP), T::one());
         }
-    }
-    for (row, known) in rows.iter().zip(inverse.iter_mut().skip(first)) {
-        *known = *row;
+        let reaching = tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));
+        let reaching = reaching.take_while(|&k| k + end < (strip + 1) * LONG_STRIP);
+        add_products(known, |k| minus(k + end), reaching, strip, &mut sums);
+        eliminate(&own, &mut sums);
+        write_strip(columns, strip, &sums);
     }
 }
 
-/// Writes the transpose of a matrix that is zero above the diagonal.
+/// Writes the transpose of a matrix that is zero above the diagonal, both by columns.
 #[inline]
 fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut [[T; N]; N]) {
     *result = [[T::zero(); N]; N];
-    let (blocks, rest) = m.as_chunks::<STRIP>();
-    for (block, rows) in blocks.iter().enumerate() {
-        for (strip, columns) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().take(block + 1) {
-            write_tile(columns, block, transposed(tile(rows, strip)));
+    for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate() {
+        for (strip, columns_of_result) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().skip(block)
+        {
+            write_tile(columns_of_result, block, transposed(tile(columns, strip)));
         }
     }
-    for (k, row) in rest.iter().enumerate() {
-        for (column, value) in result.iter_mut().zip(row) {
-            set(column, N / STRIP * STRIP + k, *value);
+    for (k, column) in result.iter_mut().enumerate().skip(N / STRIP * STRIP) {
+        for (value, m) in column.iter_mut().zip(m) {
+            *value = entry(m, k);
         }
     }
 }

@@ -74,7 +74,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         self.shift(self.rows.both(), origin, rows);
         let units: [_; 6] = self.shifted(self.placed.unit_twists(), first, origin);
         let factors = |k: usize| units.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply::<T, false, _, _, _>(&*rows, factors, |_| 0..6, first / STRIP..strips(N), columns);
+        multiply(&*rows, factors, |_| 0..6, first / STRIP..strips(N), columns);
     }
 
     /// Writes `tr(Ŝ_i (𝕁 t̂_jᵀ + 𝔹 r̂_jᵀ))` for the twists `t` and turns `r` of the changes; `nu` has what their turns
@@ -114,18 +114,18 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
             *all = part(turns, first);
         }
         let factors = |k: usize| moving.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply::<T, false, _, _, _>(&*below, factors, |_| 0..9, start..strips(N), columns);
+        multiply(&*below, factors, |_| 0..9, start..strips(N), columns);
         // Above it; what is in the same strips as what is not is computed apart.
         self.shift(self.placed.unit_twists(), origin, above);
         let forcing: [_; 6] = self.shifted(changes.wrenches.both(), first, origin);
         let factors = |k: usize| forcing.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply::<T, false, _, _, _>(&*above, factors, |_| 0..6, 0..start, columns);
+        multiply(&*above, factors, |_| 0..6, 0..start, columns);
         let mut near = [[T::zero(); COLUMNS]; W];
         let mut of_near = [[T::zero(); COLUMNS]; 6];
         for (of_near, row) in of_near.iter_mut().zip(&*above) {
             *of_near = part(row, start * STRIP);
         }
-        multiply::<T, false, _, _, _>(&of_near, factors, |_| 0..6, 0..strips(COLUMNS), &mut near);
+        multiply(&of_near, factors, |_| 0..6, 0..strips(COLUMNS), &mut near);
         for (j, (column, near)) in columns.iter_mut().zip(&near).enumerate() {
             for (entry, value) in column.iter_mut().skip(start * STRIP).zip(near).take(first % STRIP + j) {
                 *entry = *value;
