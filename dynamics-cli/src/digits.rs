@@ -27,10 +27,7 @@ pub(crate) fn short(form: &Form) -> Form {
 /// Whether a number in the form is rounded, or may have been before: it has as many digits as are written.
 pub(crate) fn is_rounded(form: &Form) -> bool {
     match form {
-        Form::Number(value) => {
-            let digits: String = value.exact_text().chars().filter(char::is_ascii_digit).collect();
-            digits.trim_start_matches('0').len() >= DIGITS
-        }
+        Form::Number(value) => !has_few_digits(*value) && of_digits(DIGITS - 1, *value) != Some(*value),
         _ => form.parts().into_iter().any(is_rounded),
     }
 }
@@ -40,9 +37,13 @@ fn has_few_digits(value: Number) -> bool {
 }
 
 fn short_number(value: Number) -> Number {
-    let rounded = Number::parse_decimal(&format!("{:.*e}", DIGITS - 1, value.to_f64()));
-    match rounded {
+    match of_digits(DIGITS, value) {
         Some(rounded) if !has_few_digits(value) => rounded,
         _ => value,
     }
+}
+
+/// The nearest decimal of so many digits.
+fn of_digits(digits: usize, value: Number) -> Option<Number> {
+    Number::parse_decimal(&format!("{:.*e}", digits - 1, value.to_f64()))
 }
