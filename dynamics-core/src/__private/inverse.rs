@@ -18,16 +18,16 @@ use crate::scalar::Scalar;
 /// # Cost
 ///
 /// Five products of a triangular with a square matrix.
-#[inline]
+#[inline(never)] // or else the result is copied once more
 pub fn forward_from_inverse<T: Scalar, const N: usize>(
-    inverse: &InverseDynamicsDerivatives<T, N>,
+    mut inverse: InverseDynamicsDerivatives<T, N>,
     factors: &Factors<T, N>,
 ) -> ForwardDynamicsDerivatives<T, N> {
-    let mut forward = ForwardDynamicsDerivatives { da_dq: zeros(), da_dv: zeros(), da_dtau: zeros() };
-    factors.minus_solve(&inverse.dtau_dq.data.0, &mut forward.da_dq.data.0);
-    factors.minus_solve(&inverse.dtau_dv.data.0, &mut forward.da_dv.data.0);
-    factors.inverse(&mut forward.da_dtau.data.0);
-    forward
+    // In their places: the first cache has no room for three matrices more.
+    factors.minus_solve(&mut inverse.dtau_dq.data.0);
+    factors.minus_solve(&mut inverse.dtau_dv.data.0);
+    factors.inverse(&mut inverse.dtau_da.data.0);
+    ForwardDynamicsDerivatives { da_dq: inverse.dtau_dq, da_dv: inverse.dtau_dv, da_dtau: inverse.dtau_da }
 }
 
 /// `M⁻¹`, of a symmetric positive definite matrix.

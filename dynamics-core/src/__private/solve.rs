@@ -113,62 +113,67 @@ pub struct Factors<T, const N: usize> {
 }
 
 impl<T: Scalar, const N: usize> Factors<T, N> {
-    /// Of a symmetric positive definite matrix, of which the rows up to the diagonal are read.
+    /// Before there are any: of the identity.
+    #[inline]
+    #[must_use]
+    pub fn new(tree: &'static EliminationTree<N>) -> Self {
+        let zeros = [[T::zero(); N]; N];
+        Self { tree, r: zeros, r_transposed: zeros, inverse_d: [T::one(); N] }
+    }
+
+    /// Those of a symmetric positive definite matrix, of which the rows up to the diagonal are read. Only of new ones:
+    /// what functions return is copied, so that they are made first.
     ///
     /// # Cost
     ///
     /// N³/3 multiplications and additions, fused where the target can; N divisions.
     #[inline]
-    pub fn of(m: &[[T; N]; N], tree: &'static EliminationTree<N>) -> Self {
-        let zeros = [[T::zero(); N]; N];
-        let mut factors = Self { tree, r: zeros, r_transposed: zeros, inverse_d: [T::one(); N] };
-        let Self { r, r_transposed, inverse_d, .. } = &mut factors;
+    pub fn factor(&mut self, m: &[[T; N]; N]) {
+        let Self { tree, r, r_transposed, inverse_d } = self;
         factor(m, tree, r_transposed, inverse_d);
         invert_triangular(r_transposed, tree, r);
         transpose_triangular(r, r_transposed);
-        factors
     }
 
-    /// Writes `−M⁻¹·B`, both by columns.
+    /// `−M⁻¹·B` in the place of `B`, by columns.
     ///
     /// # Cost
     ///
     /// About N² multiplications and additions for each column, fused where the target can.
     #[inline]
-    pub fn minus_solve<const M: usize>(&self, b: &[[T; N]; M], result: &mut [[T; N]; M]) {
+    pub fn minus_solve<const M: usize>(&self, b: &mut [[T; N]; M]) {
         // As many columns at a time as leave none for last.
         if M.is_multiple_of(6) && !M.is_multiple_of(COLUMNS) {
-            self.minus_solve_by::<6>(b, result);
+            self.minus_solve_by::<6>(b);
         } else {
-            self.minus_solve_by::<COLUMNS>(b, result);
+            self.minus_solve_by::<COLUMNS>(b);
         }
     }
 
     /// So many columns at a time.
     #[inline(always)]
-    fn minus_solve_by<const W: usize>(&self, b: &[[T; N]], result: &mut [[T; N]]) {
+    fn minus_solve_by<const W: usize>(&self, b: &mut [[T; N]]) {
         let minus_inverse_d = self.inverse_d.map(|x| -x);
-        let (blocks, rest) = result.as_chunks_mut::<W>();
-        let (of_blocks, of_rest) = b.as_chunks::<W>();
-        for (result, b) in blocks.iter_mut().zip(of_blocks) {
-            self.solve_columns(b, &minus_inverse_d, result);
+        let (blocks, rest) = b.as_chunks_mut::<W>();
+        for columns in blocks {
+            self.solve_columns(columns, &minus_inverse_d);
         }
-        for (result, b) in rest.iter_mut().zip(of_rest) {
-            self.solve_columns(core::array::from_ref(b), &minus_inverse_d, core::array::from_mut(result));
+        for column in rest {
+            self.solve_columns(core::array::from_mut(column), &minus_inverse_d);
         }
     }
 
     #[inline(always)]
-    fn solve_columns<const W: usize>(&self, b: &[[T; N]; W], inverse_d: &[T; N], result: &mut [[T; N]; W]) {
+    fn solve_columns<const W: usize>(&self, b: &mut [[T; N]; W], inverse_d: &[T; N]) {
         let tree = self.tree;
         let mut y = [[T::zero(); N]; W];
         let beyond = |strip: usize| tree.beyond(strip);
-        multiply(&self.r_transposed, |k| row_of(b, k), beyond, 0..strips(N), &mut y);
+        multiply(&self.r_transposed, |k| row_of(&*b, k), beyond, 0..strips(N), &mut y);
         for column in &mut y {
             scale(column, inverse_d);
         }
         let below = |strip: usize| tree.below(strip);
-        multiply(&self.r, |k| row_of(&y, k), below, 0..strips(N), result);
+        multiply(&self.r, |k| row_of(&y, k), below, 0..strips(N), b);
     }
 
     /// Writes `M⁻¹`, both halves.

@@ -21,7 +21,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
     ) -> ForwardDynamicsDerivatives<T, NV> {
         let a = self.forward_dynamics(q, v, tau);
         let inverse = self.inverse_dynamics_derivatives(q, v, &a);
-        let factors = Factors::of(&inverse.dtau_da.data.0, const { &EliminationTree::CHAIN });
-        forward_from_inverse(&inverse, &factors)
+        let mut factors = Factors::new(const { &EliminationTree::CHAIN });
+        factors.factor(&inverse.dtau_da.data.0);
+        forward_from_inverse(inverse, &factors)
     }
 }
