@@ -21,17 +21,19 @@ impl Program {
     /// core of any width.
     pub fn latency(&self) -> u32 {
         let mut ready: Vec<u32> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
+        let program = self.one_by_one();
+        for step in &program.steps {
             let own = match step.operation {
                 Operation::Add(..) | Operation::Mul(..) | Operation::MulAdd(..) => PRODUCT,
                 Operation::Div(..) => QUOTIENT,
                 Operation::Sqrt(..) => ROOT,
                 Operation::SinCos(..) => SINE_AND_COSINE,
+                Operation::Each(..) | Operation::Lane(..) => 0,
             };
             let start = step.operation.operands().map(|operand| known_at(&ready, operand.source)).max();
             ready.push(start.unwrap_or(0) + own);
         }
-        self.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
+        program.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
     }
 
     /// The number of floating-point instructions, a fused multiply-add being one: on a core that begins `k` of them in
@@ -59,8 +61,8 @@ mod tests {
     use crate::passes::{Operand, Step};
 
     fn program(operations: &[Operation], results: &[Source]) -> Program {
-        let steps = operations.iter().map(|&operation| Step { operation, uses: 1 }).collect();
-        Program { steps, results: results.iter().map(|&source| plain(source)).collect() }
+        let steps = operations.iter().map(|&operation| Step { operation, uses: 1, lanes: 1 }).collect();
+        Program { steps, results: results.iter().map(|&source| plain(source)).collect(), rows: vec![] }
     }
 
     fn plain(source: Source) -> Operand {

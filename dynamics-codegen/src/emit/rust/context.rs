@@ -115,8 +115,9 @@ impl Language for Context<'_> {
 fn write_bindings(lines: &mut String, statements: &[Statement], first: usize, pad: &str) {
     let mut done = 0;
     while let Some(statement) = statements.get(done) {
-        let is_sine =
-            |next: &&Statement| matches!(next.named, Named::SinCos(..)) && !next.reads_from(first + done);
+        let is_sine = |next: &&Statement| {
+            matches!(next.named, Named::SinCos(..)) && next.lanes == 1 && !next.reads_from(first + done)
+        };
         let together = statements[done..].iter().take(SINES).take_while(is_sine).count();
         let _ = match together {
             0 | 1 => writeln!(lines, "{pad}{}", binding(statement)),
