@@ -5,7 +5,7 @@ use dynamics_codegen::passes::{Compiled, Plan, Program, RunTime};
 use dynamics_codegen::spatial::Random;
 use dynamics_codegen::spec::urdf::Urdf;
 use dynamics_codegen::symbolic::Graph;
-use dynamics_codegen::{checked, read_urdf};
+use dynamics_codegen::{checked, read_urdf, read_urdf_with};
 
 /// Some thousand operations in two orders; mass matrices of these trees have conditions of some hundreds.
 const ROUNDING: f64 = 1e-11;
@@ -106,14 +106,16 @@ fn lanes_of(text: &str, attributes: &str) -> usize {
         Input::Parameter(_) => unreachable!("there are none"),
     };
     for method in Method::OF_ROBOT {
-        let (Some(one), Some(other)) = (program(&compiled, method), program(&plain, method)) else { continue };
+        let (Some(one), Some(other)) = (program(&compiled, method), program(&plain, method)) else {
+            continue;
+        };
         let (one, other) = (one.evaluate(read, &[]), other.evaluate(read, &[]));
         let size = other.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         for (a, b) in one.iter().zip(&other) {
             assert!((a - b).abs() <= ROUNDING * size, "{method:?}: {a} and {b}, of {size}");
         }
     }
-    let steps = &program(&compiled, Method::InverseDynamics).unwrap().steps;
+    let steps = &program(&compiled, Method::InverseDynamics).expect("it is a straight line").steps;
     steps.iter().map(|step| step.lanes).max().unwrap_or(0)
 }
 
@@ -147,11 +149,31 @@ fn joints_that_follow_others_are_left_alone() {
 }
 
 #[test]
-fn fields_stay_fields_in_branches() {
-    // What the legs differ in is a number in each; what a field says is the same of all.
-    let attributes = "#[dynamics(base = free)] #[joint([j1, j4, j7, j10], damping = 0.3)]";
+fn what_acts_in_one_branch_alone_is_zero_in_the_others() {
+    let attributes = "#[dynamics(base = free)] #[joint(j2, stiffness = 3, rest = 0.2, damping = 0.3)]";
     assert_eq!(lanes_of(&legs(4), attributes), 4);
-    // A spring on one leg alone is a number that is zero on the others.
-    let attributes = "#[dynamics(base = free)] #[joint(j2, stiffness = 3, rest = 0.2)]";
-    assert_eq!(lanes_of(&legs(4), attributes), 4);
+}
+
+#[test]
+fn fields_in_branches_are_prepared() {
+    let (text, attributes) =
+        (legs(4), "#[dynamics(base = free)] #[joint([j1, j4], damping = d, armature = 2 * d * d)]");
+    let spec = match read_urdf_with(
+        "Robot",
+        &["d", "rotor"],
+        Urdf { file: "robot.urdf", text: &text },
+        attributes,
+    ) {
+        Ok((spec, _)) => spec,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    let graph = Graph::new();
+    match checked(&spec, &graph, RunTime::Core) {
+        Ok((_, compiled)) => {
+            let program = program(&compiled, Method::InverseDynamics).expect("it is a straight line");
+            assert!(program.has_lanes());
+            assert_eq!(compiled.companion.fields.len(), 2, "the damping and the rotor's inertia");
+        }
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    }
 }

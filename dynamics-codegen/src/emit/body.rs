@@ -39,11 +39,34 @@ pub(super) trait Language {
     /// `√a`
     fn square_root(&self, a: &str) -> String;
 
+    /// The words for numbers side by side; none of a language whose programs have none.
+    fn side_by_side(&self) -> Option<&dyn SideBySide> {
+        None
+    }
+
     /// How a sum is written.
     fn sums(&self) -> Sums;
 
     /// The statements, a line each, indented by `indent` levels; `needed` are those that the results read.
     fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String;
+}
+
+/// What a language says of numbers side by side in words of its own.
+pub(super) trait SideBySide {
+    /// The same number for each.
+    fn each(&self, number: &str) -> String;
+
+    /// The same constant for each.
+    fn constant(&self, value: f64) -> String;
+
+    /// A number for each.
+    fn row(&self, numbers: &[String]) -> String;
+
+    /// A constant for each.
+    fn constants(&self, values: &[f64]) -> String;
+
+    /// One of them, by its place.
+    fn one(&self, numbers: &str, place: usize) -> String;
 }
 
 /// The text of a method's body, apart from its frame.
@@ -268,7 +291,7 @@ impl<'a> Writer<'a> {
             Operation::Each(row) => self.row(row),
             Operation::Lane(a, lane) => {
                 let a = self.whole(a);
-                join(&[&a], format!("{}.0[{lane}]", a.text), Binding::Atom)
+                join(&[&a], self.side_by_side().one(&a.text, lane), Binding::Atom)
             }
         }
     }
@@ -307,10 +330,10 @@ impl<'a> Writer<'a> {
         }
         if let Source::Constant(value) = operand.source {
             let value = if operand.negative { -value } else { value };
-            return atom(format!("Each::of({value:?})"), Vec::new());
+            return atom(self.side_by_side().constant(value), Vec::new());
         }
         let positive = self.whole(Operand { negative: false, ..operand });
-        let text = join(&[&positive], format!("each({})", positive.text), Binding::Atom);
+        let text = join(&[&positive], self.side_by_side().each(&positive.text), Binding::Atom);
         if operand.negative { negated(text) } else { text }
     }
 
@@ -322,14 +345,18 @@ impl<'a> Writer<'a> {
             _ => None,
         };
         if let Some(values) = row.iter().map(constant).collect::<Option<Vec<f64>>>() {
-            let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
-            return atom(format!("each_of([{}])", values.join(", ")), Vec::new());
+            return atom(self.side_by_side().constants(&values), Vec::new());
         }
         let texts: Vec<Text> = row.iter().map(|&operand| self.whole(operand)).collect();
-        let text = texts.iter().map(|text| text.text.as_str()).collect::<Vec<_>>().join(", ");
-        join(&texts.iter().collect::<Vec<_>>(), format!("Each([{text}])"), Binding::Atom)
+        let numbers: Vec<String> = texts.iter().map(|text| text.text.clone()).collect();
+        join(&texts.iter().collect::<Vec<_>>(), self.side_by_side().row(&numbers), Binding::Atom)
     }
 
+    fn side_by_side(&self) -> &'a dyn SideBySide {
+        self.language.side_by_side().expect("a program with lanes is for a language with words for them")
+    }
+
+    /// An operand as it is, of however many numbers.
     fn whole(&mut self, operand: Operand) -> Text {
         let value = match operand.source {
             Source::Constant(value) => return self.literal(if operand.negative { -value } else { value }),

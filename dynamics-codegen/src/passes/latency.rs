@@ -36,11 +36,12 @@ impl Program {
         program.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
     }
 
-    /// The number of floating-point instructions, a fused multiply-add being one: on a core that begins `k` of them in
+    /// The number of floating-point instructions, a fused multiply-add and several numbers side by side being one: on a core that begins `k` of them in
     /// each cycle, a `k`-th is the least number of cycles a call, however many calls overlap.
     pub fn instructions(&self) -> u32 {
         let instructions = |operation| match operation {
             Operation::SinCos(..) => INSTRUCTIONS_OF_SINE_AND_COSINE,
+            Operation::Each(..) | Operation::Lane(..) => 0,
             _ => 1,
         };
         self.steps.iter().map(|step| instructions(step.operation)).sum()

@@ -140,3 +140,52 @@ impl<T: Scalar, const N: usize> Scalar for Each<T, N> {
         Self(T::each::<MultiplyAdd, N>([&self.0, &a.0, &b.0]))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every operation on `N` numbers, and on one after the other.
+    fn agree<T: Scalar, const N: usize>() {
+        let row = |a: f64, b: f64| {
+            let mut k = 0.0;
+            Each([T::zero(); N].map(|_| {
+                k += 1.0;
+                T::of((a * k).sin() + b)
+            }))
+        };
+        let (a, b, c) = (row(1.3, 0.2), row(0.7, 1.9), row(2.1, -0.4));
+        let (sin, cos) = a.sin_cos();
+        for k in 0..N {
+            let (x, y, z) = (a.0[k], b.0[k], c.0[k]);
+            assert_eq!((a + b).0[k], x + y);
+            assert_eq!((a - b).0[k], x - y);
+            assert_eq!((a * b).0[k], x * y);
+            assert_eq!((a / b).0[k], x / y);
+            assert_eq!((-a).0[k], -x);
+            assert_eq!(a.mul_add(b, c).0[k], x.mul_add(y, z));
+            assert_eq!(b.sqrt().0[k], y.sqrt());
+            assert_eq!((sin.0[k], cos.0[k]), x.sin_cos());
+        }
+        assert!(a.is_finite() && !(a / Each::zero()).is_finite());
+        assert_eq!(Each::<T, N>::of(0.3), each(T::of(0.3)));
+        assert_eq!(each_of::<T, N>([0.3; N]), each(T::of(0.3)));
+    }
+
+    #[test]
+    fn each_number_has_the_bits_of_one_alone() {
+        agree::<f64, 2>();
+        agree::<f64, 3>();
+        agree::<f64, 4>();
+        agree::<f64, 5>();
+        agree::<f64, 6>();
+        agree::<f64, 8>();
+        agree::<f64, 9>();
+        agree::<f32, 2>();
+        agree::<f32, 3>();
+        agree::<f32, 6>();
+        agree::<f32, 9>();
+        #[cfg(feature = "simd")]
+        agree::<crate::lanes::f64x4, 3>();
+    }
+}

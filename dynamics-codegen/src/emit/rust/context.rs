@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::names::CALLED;
-use crate::emit::body::{Binding, Language, Named, Statement, Sums, last_readers};
+use crate::emit::body::{Binding, Language, Named, SideBySide, Statement, Sums, last_readers};
 use crate::emit::names::{Names, component};
 use crate::mechanics::closed::ClosedForms;
 use crate::mechanics::equations::Argument;
@@ -79,6 +79,10 @@ impl Language for Context<'_> {
         format!("sqrt({a})")
     }
 
+    fn side_by_side(&self) -> Option<&dyn SideBySide> {
+        Some(&Lanes)
+    }
+
     fn sums(&self) -> Sums {
         Sums::Regrouped // fewer parentheses: generated code is read
     }
@@ -108,6 +112,32 @@ impl Language for Context<'_> {
             let _ = writeln!(lines, "{}}};", pad(indent));
         }
         lines
+    }
+}
+
+/// Numbers side by side in the run time's type for them.
+struct Lanes;
+
+impl SideBySide for Lanes {
+    fn each(&self, number: &str) -> String {
+        format!("each({number})")
+    }
+
+    fn constant(&self, value: f64) -> String {
+        format!("Each::of({value:?})")
+    }
+
+    fn row(&self, numbers: &[String]) -> String {
+        format!("Each([{}])", numbers.join(", "))
+    }
+
+    fn constants(&self, values: &[f64]) -> String {
+        let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
+        format!("each_of([{}])", values.join(", "))
+    }
+
+    fn one(&self, numbers: &str, place: usize) -> String {
+        format!("{numbers}.0[{place}]")
     }
 }
 
