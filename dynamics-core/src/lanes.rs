@@ -6,6 +6,7 @@
 
 pub(crate) mod sines;
 mod tiles;
+pub(crate) mod together;
 
 use core::fmt;
 use core::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};

@@ -51,6 +51,19 @@ pub trait Scalar:
         one_by_one(angles)
     }
 
+    /// One operation on each of several numbers, with the bits that it gives of one.
+    ///
+    /// With feature `simd`, `f64` computes them side by side in lanes.
+    #[inline]
+    fn each<F: Elementwise, const N: usize>(operands: [&[Self; N]; 3]) -> [Self; N] {
+        let [a, b, c] = operands;
+        let mut results = *a;
+        for (((result, a), b), c) in results.iter_mut().zip(a).zip(b).zip(c) {
+            *result = F::of([*a, *b, *c]);
+        }
+        results
+    }
+
     /// `√self`; NaN below zero.
     ///
     /// Correctly rounded for `f32` and `f64` with feature `std` or `libm`, within 1 ulp without either.
@@ -64,6 +77,12 @@ pub trait Scalar:
     fn mul_add(self, a: Self, b: Self) -> Self {
         self * a + b
     }
+}
+
+/// An operation on up to three numbers of any kind, for [`Scalar::each`].
+pub trait Elementwise {
+    /// What it gives of one number each, or of as many as lanes hold.
+    fn of<S: Scalar>(operands: [S; 3]) -> S;
 }
 
 /// [`Scalar::sin_cos`] of each angle.
@@ -95,6 +114,12 @@ macro_rules! impl_scalar {
                 return crate::lanes::sines::$float(angles);
                 #[cfg(not(feature = "simd"))]
                 return one_by_one(angles);
+            }
+
+            #[cfg(feature = "simd")]
+            #[inline]
+            fn each<F: Elementwise, const N: usize>(operands: [&[Self; N]; 3]) -> [Self; N] {
+                crate::lanes::together::$float::<F, N>(operands)
             }
 
             #[inline(always)]

@@ -50,6 +50,8 @@ impl Tape {
         input: &dyn Fn(Input) -> usize,
         fields: usize,
     ) -> Self {
+        // Lanes are those of rollouts here.
+        let program = &*program.one_by_one();
         let mut writer = Writer {
             inputs,
             input,
@@ -150,6 +152,7 @@ impl Writer<'_> {
                 self.steps.push(Live { registers, uses, is_pair: true });
                 return;
             }
+            Operation::Each(..) | Operation::Lane(..) => unreachable!("one by one"),
         };
         self.release(&operands, &scratch);
         let to = self.fresh();
@@ -302,7 +305,7 @@ mod tests {
                     4 => Operation::Div(a, c),
                     _ => Operation::Sqrt(square),
                 };
-                steps.push(Step { operation, uses: 0 });
+                steps.push(Step { operation, uses: 0, lanes: 1 });
             }
         }
         let results = (0..steps.len()).map(|k| Operand { source: Source::Step(k), negative: k % 3 == 0 });
@@ -319,7 +322,7 @@ mod tests {
             }
         }
         steps.iter_mut().zip(uses).for_each(|(step, uses)| step.uses = uses);
-        Program { steps, results }
+        Program { steps, results, rows: vec![] }
     }
 
     /// Rounding of a few dozen operations on numbers of the size of one.

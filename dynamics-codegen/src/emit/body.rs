@@ -39,11 +39,34 @@ pub(super) trait Language {
     /// `√a`
     fn square_root(&self, a: &str) -> String;
 
+    /// The words for numbers side by side; none of a language whose programs have none.
+    fn side_by_side(&self) -> Option<&dyn SideBySide> {
+        None
+    }
+
     /// How a sum is written.
     fn sums(&self) -> Sums;
 
     /// The statements, a line each, indented by `indent` levels; `needed` are those that the results read.
     fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String;
+}
+
+/// What a language says of numbers side by side in words of its own.
+pub(super) trait SideBySide {
+    /// The same number for each.
+    fn each(&self, number: &str) -> String;
+
+    /// The same constant for each.
+    fn constant(&self, value: f64) -> String;
+
+    /// A number for each.
+    fn row(&self, numbers: &[String]) -> String;
+
+    /// A constant for each.
+    fn constants(&self, values: &[f64]) -> String;
+
+    /// One of them, by its place.
+    fn one(&self, numbers: &str, place: usize) -> String;
 }
 
 /// The text of a method's body, apart from its frame.
@@ -102,6 +125,8 @@ pub(super) struct Statement {
     pub(super) named: Named,
     /// The value.
     pub(super) value: String,
+    /// How many numbers it is.
+    pub(super) lanes: usize,
     /// The statements whose names occur in it.
     reads: Vec<usize>,
 }
@@ -128,7 +153,7 @@ pub(super) fn write(program: &Program, wanted: &[String], language: &dyn Languag
     for step in 0..program.steps.len() {
         writer.step(step);
     }
-    let results: Vec<Text> = program.results.iter().map(|&result| writer.operand(result)).collect();
+    let results: Vec<Text> = program.results.iter().map(|&result| writer.whole(result)).collect();
     let needed: Vec<usize> = results.iter().flat_map(|text| text.reads.iter().copied()).collect();
     Body {
         statements: language.layout(&writer.statements, &needed, indent),
@@ -181,7 +206,8 @@ impl<'a> Writer<'a> {
         if let Operation::SinCos(angle) = operation {
             return self.sin_cos(angle);
         }
-        let text = self.operation(operation);
+        let lanes = self.program.steps[step].lanes;
+        let text = self.operation(operation, lanes);
         let wanted = self.result_names[step].take();
         let short = text.text.len() <= INLINE_WIDTH && text.depth < INLINE_DEPTH;
         let read_once = self.program.steps[step].uses == 1;
@@ -195,9 +221,10 @@ impl<'a> Writer<'a> {
                 self.values.push((text, None));
                 return;
             }
-            _ => self.numbered_name(),
+            _ if lanes > 1 => self.numbered_name('l'),
+            _ => self.numbered_name('e'),
         };
-        let statement = self.declare(Named::Value(name.clone()), text);
+        let statement = self.declare(Named::Value(name.clone()), text, lanes);
         self.values.push((atom(name, vec![statement]), None));
     }
 
@@ -210,8 +237,9 @@ impl<'a> Writer<'a> {
         let (reads_sin, reads_cos) = self.sines_read[step];
         let sin = reads_sin.then(|| self.names.fresh(&format!("s{suffix}")));
         let cos = reads_cos.then(|| self.names.fresh(&format!("c{suffix}")));
-        let angle = self.operand(angle);
-        let statement = self.declare(Named::SinCos(sin.clone(), cos.clone()), angle);
+        let lanes = self.program.steps[step].lanes;
+        let angle = self.operand(angle, lanes);
+        let statement = self.declare(Named::SinCos(sin.clone(), cos.clone()), angle, lanes);
         let read = |name: Option<String>| atom(name.unwrap_or_default(), vec![statement]);
         self.values.push((read(sin), Some(read(cos))));
     }
@@ -229,60 +257,107 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn declare(&mut self, named: Named, text: Text) -> usize {
-        self.statements.push(Statement { named, value: text.text, reads: text.reads });
+    fn declare(&mut self, named: Named, text: Text, lanes: usize) -> usize {
+        self.statements.push(Statement { named, lanes, value: text.text, reads: text.reads });
         self.statements.len() - 1
     }
 
-    fn numbered_name(&mut self) -> String {
-        let name = self.names.fresh(&format!("e{}", self.numbered));
+    fn numbered_name(&mut self, letter: char) -> String {
+        let name = self.names.fresh(&format!("{letter}{}", self.numbered));
         self.numbered += 1;
         name
     }
 
-    fn operation(&mut self, operation: Operation) -> Text {
+    fn operation(&mut self, operation: Operation, lanes: usize) -> Text {
         match operation {
             Operation::Add(a, b) => {
-                let (a, b) = (self.term(a), self.term(b));
+                let (a, b) = (self.term(a, lanes), self.term(b, lanes));
                 sum(a, b, Binding::Sum, self.language.sums())
             }
             Operation::Mul(a, b) => {
-                let (a, b) = (self.operand(a), self.operand(b));
+                let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
                 product(a, '*', b)
             }
             Operation::Div(a, b) => {
-                let (a, b) = (self.operand(a), self.operand(b));
+                let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
                 product(a, '/', b)
             }
-            Operation::MulAdd(a, b, c) => self.multiply_add(a, b, c),
+            Operation::MulAdd(a, b, c) => self.multiply_add(a, b, c, lanes),
             Operation::Sqrt(a) => {
-                let a = self.operand(a);
+                let a = self.operand(a, lanes);
                 join(&[&a], self.language.square_root(&a.text), Binding::Atom)
             }
             Operation::SinCos(_) => unreachable!("written by `sin_cos`"),
+            Operation::Each(row) => self.row(row),
+            Operation::Lane(a, lane) => {
+                let a = self.whole(a);
+                join(&[&a], self.side_by_side().one(&a.text, lane), Binding::Atom)
+            }
         }
     }
 
-    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand) -> Text {
-        let texts = [a, b, c].map(|operand| self.operand(operand));
+    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand, lanes: usize) -> Text {
+        let texts = [a, b, c].map(|operand| self.operand(operand, lanes));
         let [first, second, third] = &texts;
         if let Some(call) = self.language.multiply_add(&first.text, &second.text, &third.text) {
             return join(&[first, second, third], call, Binding::Atom);
         }
         let is_negative = a.negative != b.negative;
         let positive = |operand| Operand { negative: false, ..operand };
-        let (a, b) = (self.operand(positive(a)), self.operand(positive(b)));
-        let text =
-            sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product, self.language.sums());
+        let (a, b) = (self.operand(positive(a), lanes), self.operand(positive(b), lanes));
+        let text = sum(
+            (is_negative, product(a, '*', b)),
+            self.term(c, lanes),
+            Binding::Product,
+            self.language.sums(),
+        );
         Text { binding: Binding::MultiplyAdd, ..text }
     }
 
     /// A term of a sum, and whether it is taken off.
-    fn term(&mut self, operand: Operand) -> (bool, Text) {
-        (operand.negative, self.operand(Operand { negative: false, ..operand }))
+    fn term(&mut self, operand: Operand, lanes: usize) -> (bool, Text) {
+        (operand.negative, self.operand(Operand { negative: false, ..operand }, lanes))
     }
 
-    fn operand(&mut self, operand: Operand) -> Text {
+    /// An operand of a step that computes so many numbers.
+    fn operand(&mut self, operand: Operand, lanes: usize) -> Text {
+        let own = match operand.source {
+            Source::Step(k) | Source::Sin(k) | Source::Cos(k) => self.program.steps[k].lanes,
+            _ => 1,
+        };
+        if lanes == own {
+            return self.whole(operand);
+        }
+        if let Source::Constant(value) = operand.source {
+            let value = if operand.negative { -value } else { value };
+            return atom(self.side_by_side().constant(value), Vec::new());
+        }
+        let positive = self.whole(Operand { negative: false, ..operand });
+        let text = join(&[&positive], self.side_by_side().each(&positive.text), Binding::Atom);
+        if operand.negative { negated(text) } else { text }
+    }
+
+    /// Numbers side by side.
+    fn row(&mut self, row: usize) -> Text {
+        let row = &self.program.rows[row];
+        let constant = |operand: &Operand| match operand.source {
+            Source::Constant(value) => Some(if operand.negative { -value } else { value } + 0.0),
+            _ => None,
+        };
+        if let Some(values) = row.iter().map(constant).collect::<Option<Vec<f64>>>() {
+            return atom(self.side_by_side().constants(&values), Vec::new());
+        }
+        let texts: Vec<Text> = row.iter().map(|&operand| self.whole(operand)).collect();
+        let numbers: Vec<String> = texts.iter().map(|text| text.text.clone()).collect();
+        join(&texts.iter().collect::<Vec<_>>(), self.side_by_side().row(&numbers), Binding::Atom)
+    }
+
+    fn side_by_side(&self) -> &'a dyn SideBySide {
+        self.language.side_by_side().expect("a program with lanes is for a language with words for them")
+    }
+
+    /// An operand as it is, of however many numbers.
+    fn whole(&mut self, operand: Operand) -> Text {
         let value = match operand.source {
             Source::Constant(value) => return self.literal(if operand.negative { -value } else { value }),
             Source::Input(input) => atom(self.input(input), Vec::new()),

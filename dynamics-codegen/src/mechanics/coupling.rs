@@ -25,6 +25,11 @@ impl<S: Scalar> Coupling<S> {
 
     /// Whether no column shares its speed.
     pub fn is_identity(&self) -> bool {
+        self.is_one_to_one() && self.rows.iter().all(|(_, ratio)| ratio.as_sign() == Some(1))
+    }
+
+    /// Whether each column has a speed of its own.
+    pub fn is_one_to_one(&self) -> bool {
         self.rows.len() == self.dof
     }
 

@@ -4,6 +4,7 @@ use std::cell::OnceCell;
 
 use super::aba;
 use super::base_regressor::{Symbols, base_columns};
+use super::branches::{self, Branches};
 use super::centroidal;
 use super::composite::{self, Square};
 use super::coupling::{Coupling, elimination_parents};
@@ -56,6 +57,8 @@ pub struct Derivation<'g> {
     bodies: Vec<Option<usize>>,
     /// Whether the joint's own parameters are those of this link.
     acts: Vec<bool>,
+    /// The branches that are alike, where the numbers in which they differ have names.
+    pub branches: Branches<'g>,
     /// The coordinates that begin unit quaternions.
     quaternions: Vec<usize>,
     /// The speeds that kinetic terms couple.
@@ -89,6 +92,7 @@ impl<'g> Derivation<'g> {
             joints: model.links.iter().map(|link| link.joint.clone()).collect(),
             bodies: model.links.iter().map(|link| link.body).collect(),
             acts: model.links.iter().map(|link| link.acts).collect(),
+            branches: Branches::default(),
             quaternions: model.tree.quaternions().collect(),
             coupled: model.tree.coupled_by_terms(),
             added,
@@ -106,6 +110,20 @@ impl<'g> Derivation<'g> {
     /// The same derivation in another unit of length.
     pub fn in_unit(&self, length: Number) -> Self {
         Self { dynamic: unit::in_unit(&self.dynamic, length), ..self.clone() }
+    }
+
+    /// The derivation of forces in the unit `length` with branches that are alike derived alike, if there are such.
+    pub fn alike(&self, model: &Model<'g>, length: Number) -> Option<Self> {
+        let sets = branches::alike(&model.tree);
+        if sets.is_empty() || self.added.is_some() {
+            return None;
+        }
+        let tree = regroup(&regauge(&branches::turned_alike(&model.tree, &sets)));
+        let tree = unit::in_unit(&tree, length);
+        let (dynamic, branches) = branches::named(&tree, &sets, self.graph, self.inputs);
+        let coupling = Coupling::of(&dynamic, self.inputs.dof);
+        let v = coupling.spread(&self.inputs.vector(self.graph, Argument::V));
+        Some(Self { dynamic, branches, v, coupling, ..self.clone() })
     }
 
     /// The same derivation in frames that stay behind some links, if that can be less for anything.
@@ -136,14 +154,14 @@ impl<'g> Derivation<'g> {
         if self.is_small() {
             alternatives.extend(self.blocks_by_matrices(Method::ForwardDynamics));
         }
-        if chain >= SHORTEST_FOR_ARTICULATED_BODIES && self.coupling.is_identity() && !has_kinetic {
+        if chain >= SHORTEST_FOR_ARTICULATED_BODIES && !has_kinetic {
             let mut passive = passive::forces(&self.dynamic, &self.q, &self.v);
             if let Some(added) = &self.added {
                 passive = sum(passive, added.forces(&self.at_no_acceleration()));
             }
-            let driving: Vec<Expr<'g>> = difference(&self.tau, passive);
+            let driving: Vec<Expr<'g>> = difference(&self.coupling.spread(&self.tau), passive);
             let a = aba::forward_dynamics(&self.dynamic, &self.q, &self.v, &driving);
-            alternatives.push(vec![vector("a", a)]);
+            alternatives.push(vec![vector("a", self.coupling.gather(a))]);
         }
         alternatives
     }
@@ -156,7 +174,7 @@ impl<'g> Derivation<'g> {
     /// The most degrees of freedom from a tip to the base; none that articulated bodies could fold where joints
     /// follow others.
     fn longest_chain(&self) -> usize {
-        if !self.coupling.is_identity() {
+        if !self.coupling.is_one_to_one() {
             return 0;
         }
         let columns = &self.dynamic.columns;

@@ -3,6 +3,7 @@
 pub mod aba;
 mod along;
 pub mod base_regressor;
+pub mod branches;
 pub mod centroidal;
 pub mod closed;
 pub mod columns;

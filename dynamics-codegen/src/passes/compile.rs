@@ -1,12 +1,14 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
 use super::factoring::factoring;
+use super::lanes::Layout;
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans, RunTime, calls};
-use super::schedule::{arithmetic, schedule};
+use super::schedule::{arithmetic, schedule, schedule_in};
 use super::share::share;
 use super::table;
 use super::{Companion, Cost, Program};
+use crate::mechanics::branches::Branches;
 use crate::mechanics::equations::{Block, Derivation, Equation, Inputs, Method};
 use crate::mechanics::regressor::RegressorColumn;
 use crate::model::Model;
@@ -91,6 +93,8 @@ pub fn compile<'g>(
     let unit = best_unit(&derivation);
     let derivation = derivation.in_unit(unit);
     let at_rest = derivation.at_rest();
+    let alike = (run_time == RunTime::Core).then(|| derivation.alike(model, unit)).flatten();
+    let alike_at_rest = alike.as_ref().and_then(Derivation::at_rest);
     let inputs = derivation.inputs;
     let plan = Plans::of(model, run_time);
     let is_straight = |method: Method| methods.contains(&method) && plan.form(method) == Form::StraightLine;
@@ -102,8 +106,14 @@ pub fn compile<'g>(
     let has_own = |method: Method| shares(method).is_none_or(|bundle| bundle == method);
     let straight = methods.iter().copied().filter(|&method| is_straight(method) && has_own(method));
     let mut normaliser = Normaliser::new(graph);
+    let mut side_by_side: Vec<Method> = Vec::new();
     let equations: Vec<Equation<'g>> = straight
         .map(|method| {
+            let alike = alike.iter().chain(&alike_at_rest);
+            if let Some(blocks) = cheapest_side_by_side(alike, method, &mut normaliser) {
+                side_by_side.push(method);
+                return Equation { method, blocks };
+            }
             let at_rest = at_rest.as_ref().filter(|_| method.trait_().is_of_forces());
             let derivations = std::iter::once(&derivation).chain(at_rest);
             Equation { method, blocks: cheapest(derivations, method, &mut normaliser) }
@@ -113,8 +123,14 @@ pub fn compile<'g>(
         .iter()
         .any(|&method| matches!(plan.form(method), Form::Table | Form::Lanes))
         .then(|| table::entries(model));
-    let companion = Companion::of(graph, inputs, &equations, table.as_deref().unwrap_or_default());
+    let entries_of_table = table.as_deref().unwrap_or_default();
+    let branches = alike.as_ref().map(|alike| &alike.branches);
+    let companion = Companion::of(graph, inputs, &equations, entries_of_table, branches);
     let program_of = |results: &[Expr<'g>]| schedule(graph, inputs, results, |node| companion.read(node));
+    let program_side_by_side = |results: &[Expr<'g>], branches: &Branches<'g>| {
+        let layout = Layout::of(graph, results, branches, |node| companion.read(node).is_some());
+        schedule_in(&layout, graph, inputs, results, |node| companion.read(node))
+    };
     let blocks_of = |method: Method| -> Vec<Block<'g>> {
         let of = |method| equations.iter().find(|equation| equation.method == method);
         let owner = shares(method).unwrap_or(method);
@@ -126,7 +142,11 @@ pub fn compile<'g>(
         let (plan, cost) = match plan.form(method) {
             Form::StraightLine => {
                 let blocks = blocks_of(method);
-                let program = program_of(&entries(&blocks));
+                let is_side_by_side = side_by_side.contains(&shares(method).unwrap_or(method));
+                let program = match branches.filter(|_| is_side_by_side) {
+                    Some(branches) => program_side_by_side(&entries(&blocks), branches),
+                    None => program_of(&entries(&blocks)),
+                };
                 let cost = program.cost();
                 (Plan::StraightLine { blocks, program }, cost)
             }
@@ -190,8 +210,7 @@ fn cheapest<'d, 'g: 'd>(
     let cost = |blocks: &Vec<Block<'g>>| arithmetic(graph, &entries(blocks), is_free);
     let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
     for blocks in derivations.flat_map(|derivation| derivation.alternatives(method)) {
-        let entries = entries(&blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
-        plain.push(with_entries(&blocks, entries));
+        plain.push(normalised(&blocks, normaliser));
     }
     plain.sort_by_key(cost);
     if inputs.dof > LARGEST_TO_SHARE_ALL {
@@ -204,6 +223,33 @@ fn cheapest<'d, 'g: 'd>(
     simplified.min_by_key(cost).unwrap_or_default()
 }
 
+/// The cheapest way to compute a method's result for branches that are alike at once, if that takes fewer operations by
+/// a quarter than to compute it for one after the other: common parts are not looked for then.
+fn cheapest_side_by_side<'d, 'g: 'd>(
+    derivations: impl Iterator<Item = &'d Derivation<'g>>,
+    method: Method,
+    normaliser: &mut Normaliser<'g>,
+) -> Option<Vec<Block<'g>>> {
+    if !method.trait_().is_of_forces() {
+        return None;
+    }
+    let mut candidate = |derivation: &Derivation<'g>, blocks: Vec<Block<'g>>| {
+        let Derivation { graph, ref branches, .. } = *derivation;
+        let blocks = normalised(&blocks, normaliser);
+        let (entries, is_free) = (entries(&blocks), |node| graph.is_parameter_only(node));
+        let alone = arithmetic(graph, &entries, is_free);
+        let together = Layout::of(graph, &entries, branches, is_free).operations(graph, &entries, is_free);
+        (4 * together <= 3 * alone).then_some((together, blocks))
+    };
+    derivations
+        .flat_map(|derivation| {
+            derivation.alternatives(method).into_iter().map(move |blocks| (derivation, blocks))
+        })
+        .filter_map(|(derivation, blocks)| candidate(derivation, blocks))
+        .min_by_key(|(operations, _)| *operations)
+        .map(|(_, blocks)| blocks)
+}
+
 /// The largest robot of which all alternatives are simplified before the cheapest is chosen, and of which derivatives
 /// have a body of their own beside that with the value.
 const LARGEST_TO_SHARE_ALL: usize = 3;
@@ -211,6 +257,11 @@ const LARGEST_TO_SHARE_ALL: usize = 3;
 /// All entries of the blocks, in order.
 pub fn entries<'g>(blocks: &[Block<'g>]) -> Vec<Expr<'g>> {
     blocks.iter().flat_map(|block| block.entries.iter().copied()).collect()
+}
+
+fn normalised<'g>(blocks: &[Block<'g>], normaliser: &mut Normaliser<'g>) -> Vec<Block<'g>> {
+    let entries = entries(blocks).into_iter().map(|entry| normaliser.normalise(entry)).collect();
+    with_entries(blocks, entries)
 }
 
 fn with_entries<'g>(blocks: &[Block<'g>], entries: Vec<Expr<'g>>) -> Vec<Block<'g>> {

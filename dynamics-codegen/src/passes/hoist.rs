@@ -4,8 +4,9 @@ use super::parameters::{Normaliser, reads_negative};
 use super::program::{Operand, Program, Source};
 use super::schedule::schedule;
 use super::share::share;
+use crate::mechanics::branches::Branches;
 use crate::mechanics::equations::{Equation, Inputs};
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, Substitution};
 
 /// The fields of the prepared companion: parameters that methods read, and what is made of them.
 pub struct Companion<'g> {
@@ -18,13 +19,21 @@ pub struct Companion<'g> {
 }
 
 impl<'g> Companion<'g> {
-    /// Finds what the equations and the table of links need of parameter-only work.
-    pub fn of(graph: &'g Graph, inputs: Inputs, equations: &[Equation<'g>], table: &[Expr<'g>]) -> Self {
-        let nothing = Program { steps: Vec::new(), results: Vec::new() };
+    /// Finds what the equations and the table of links need of parameter-only work; names in `branches` are read as what
+    /// they stand for.
+    pub fn of(
+        graph: &'g Graph,
+        inputs: Inputs,
+        equations: &[Equation<'g>],
+        table: &[Expr<'g>],
+        branches: Option<&Branches<'g>>,
+    ) -> Self {
+        let nothing = Program { steps: Vec::new(), results: Vec::new(), rows: Vec::new() };
         let mut companion = Self { fields: Vec::new(), preparation: nothing, reads: NodeMap::new(graph) };
         let mut normaliser = Normaliser::new(graph);
+        let mut names = Substitution::new(graph, |symbol| branches?.value(symbol));
         for id in hoisted_nodes(graph, equations, table) {
-            let value = normaliser.normalise(Expr::of_node(graph, id));
+            let value = normaliser.normalise(names.apply(Expr::of_node(graph, id)));
             let operand = companion.operand(graph, value);
             companion.reads.insert(id, operand);
         }

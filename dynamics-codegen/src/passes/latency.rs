@@ -21,24 +21,27 @@ impl Program {
     /// core of any width.
     pub fn latency(&self) -> u32 {
         let mut ready: Vec<u32> = Vec::with_capacity(self.steps.len());
-        for step in &self.steps {
+        let program = self.one_by_one();
+        for step in &program.steps {
             let own = match step.operation {
                 Operation::Add(..) | Operation::Mul(..) | Operation::MulAdd(..) => PRODUCT,
                 Operation::Div(..) => QUOTIENT,
                 Operation::Sqrt(..) => ROOT,
                 Operation::SinCos(..) => SINE_AND_COSINE,
+                Operation::Each(..) | Operation::Lane(..) => 0,
             };
             let start = step.operation.operands().map(|operand| known_at(&ready, operand.source)).max();
             ready.push(start.unwrap_or(0) + own);
         }
-        self.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
+        program.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
     }
 
-    /// The number of floating-point instructions, a fused multiply-add being one: on a core that begins `k` of them in
+    /// The number of floating-point instructions, a fused multiply-add and several numbers side by side being one: on a core that begins `k` of them in
     /// each cycle, a `k`-th is the least number of cycles a call, however many calls overlap.
     pub fn instructions(&self) -> u32 {
         let instructions = |operation| match operation {
             Operation::SinCos(..) => INSTRUCTIONS_OF_SINE_AND_COSINE,
+            Operation::Each(..) | Operation::Lane(..) => 0,
             _ => 1,
         };
         self.steps.iter().map(|step| instructions(step.operation)).sum()
@@ -59,8 +62,8 @@ mod tests {
     use crate::passes::{Operand, Step};
 
     fn program(operations: &[Operation], results: &[Source]) -> Program {
-        let steps = operations.iter().map(|&operation| Step { operation, uses: 1 }).collect();
-        Program { steps, results: results.iter().map(|&source| plain(source)).collect() }
+        let steps = operations.iter().map(|&operation| Step { operation, uses: 1, lanes: 1 }).collect();
+        Program { steps, results: results.iter().map(|&source| plain(source)).collect(), rows: vec![] }
     }
 
     fn plain(source: Source) -> Operand {

@@ -3,6 +3,7 @@
 mod compile;
 mod factoring;
 mod hoist;
+mod lanes;
 mod latency;
 mod order;
 mod parameters;

@@ -13,15 +13,13 @@ use crate::symbolic::{Graph, NodeId, NodeMap, Op};
 /// So many angles stand together.
 const TOGETHER: usize = 4;
 
-/// The nodes that `results` need, each after its operands. `known` are the same in the order in which they were made; of
-/// those that are at hand no operands are needed.
+/// The nodes that `results` need, each after its operands. `known` are the same in another such order.
 pub(super) fn order(
     graph: &Graph,
     known: &[NodeId],
     results: &[NodeId],
-    is_at_hand: impl Fn(NodeId) -> bool,
+    operands: impl Fn(NodeId) -> [Option<NodeId>; 2],
 ) -> Vec<NodeId> {
-    let operands = |id| if is_at_hand(id) { [None; 2] } else { both(graph.op(id).operands()) };
     let mut heights: NodeMap<u32> = NodeMap::new(graph);
     for &id in known {
         let below = operands(id).into_iter().flatten().map(|operand| heights[operand] + 1);
@@ -124,6 +122,6 @@ impl<'a> Walk<'a> {
     }
 }
 
-fn both(mut operands: impl Iterator<Item = NodeId>) -> [Option<NodeId>; 2] {
+pub(super) fn both(mut operands: impl Iterator<Item = NodeId>) -> [Option<NodeId>; 2] {
     [operands.next(), operands.next()]
 }

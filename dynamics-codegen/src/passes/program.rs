@@ -54,15 +54,34 @@ pub enum Operation {
     Sqrt(Operand),
     /// `sin a` and `cos a`
     SinCos(Operand),
+    /// The numbers of a row of the program, side by side.
+    Each(usize),
+    /// One of several numbers side by side, by its place.
+    Lane(Operand, usize),
 }
 
 impl Operation {
+    /// The same operation on other operands.
+    pub(super) fn mapped(self, f: impl Fn(Operand) -> Operand) -> Self {
+        match self {
+            Operation::Add(a, b) => Operation::Add(f(a), f(b)),
+            Operation::Mul(a, b) => Operation::Mul(f(a), f(b)),
+            Operation::MulAdd(a, b, c) => Operation::MulAdd(f(a), f(b), f(c)),
+            Operation::Div(a, b) => Operation::Div(f(a), f(b)),
+            Operation::Sqrt(a) => Operation::Sqrt(f(a)),
+            Operation::SinCos(a) => Operation::SinCos(f(a)),
+            Operation::Lane(a, lane) => Operation::Lane(f(a), lane),
+            Operation::Each(_) => self,
+        }
+    }
+
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = Operand> {
         Operands(match *self {
             Operation::Add(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => [Some(a), Some(b), None],
             Operation::MulAdd(a, b, c) => [Some(a), Some(b), Some(c)],
-            Operation::Sqrt(a) | Operation::SinCos(a) => [Some(a), None, None],
+            Operation::Sqrt(a) | Operation::SinCos(a) | Operation::Lane(a, _) => [Some(a), None, None],
+            Operation::Each(_) => [None; 3],
         })
     }
 }
@@ -87,6 +106,8 @@ pub struct Step {
     pub operation: Operation,
     /// How often later steps and the results read it.
     pub uses: usize,
+    /// How many numbers it computes side by side; a single operand is that of each.
+    pub lanes: usize,
 }
 
 /// How many operations a program has.
@@ -124,13 +145,15 @@ pub struct Program {
     pub steps: Vec<Step>,
     /// The results.
     pub results: Vec<Operand>,
+    /// The numbers that [`Operation::Each`] lays side by side.
+    pub rows: Vec<Vec<Operand>>,
 }
 
 impl Program {
     /// The number of operations; a product with two is an addition.
     pub fn cost(&self) -> Cost {
         let mut cost = Cost::default();
-        for step in &self.steps {
+        for step in &self.one_by_one().steps {
             match step.operation {
                 Operation::Add(..) => cost.additions += 1,
                 Operation::Mul(..) => cost.multiplications += 1,
@@ -142,14 +165,65 @@ impl Program {
                 Operation::Div(..) => cost.divisions += 1,
                 Operation::Sqrt(..) => cost.square_roots += 1,
                 Operation::SinCos(..) => cost.sines_and_cosines += 1,
+                Operation::Each(..) | Operation::Lane(..) => {}
             }
         }
         cost
     }
 
+    /// Whether anything is computed side by side.
+    pub fn has_lanes(&self) -> bool {
+        self.steps.iter().any(|step| step.lanes > 1)
+    }
+
+    /// The same program with what is computed side by side one after another.
+    pub fn one_by_one(&self) -> std::borrow::Cow<'_, Self> {
+        if !self.has_lanes() {
+            return std::borrow::Cow::Borrowed(self);
+        }
+        // For each step what it became: a value for each lane.
+        let mut became: Vec<Vec<Operand>> = Vec::with_capacity(self.steps.len());
+        let mut steps: Vec<Step> = Vec::new();
+        let of = |became: &[Vec<Operand>], operand: Operand, lane: usize| {
+            let step = match operand.source {
+                Source::Step(k) | Source::Sin(k) | Source::Cos(k) => k,
+                _ => return operand,
+            };
+            let values = &became[step];
+            let value = values[lane.min(values.len() - 1)];
+            let source = match (operand.source, value.source) {
+                (Source::Sin(_), Source::Step(k)) => Source::Sin(k),
+                (Source::Cos(_), Source::Step(k)) => Source::Cos(k),
+                (_, source) => source,
+            };
+            Operand { source, negative: operand.negative != value.negative }
+        };
+        for step in &self.steps {
+            let values = match step.operation {
+                Operation::Each(row) => {
+                    self.rows[row].iter().map(|&operand| of(&became, operand, 0)).collect()
+                }
+                Operation::Lane(operand, lane) => vec![of(&became, operand, lane)],
+                operation => (0..step.lanes)
+                    .map(|lane| {
+                        let operation = operation.mapped(|operand| of(&became, operand, lane));
+                        steps.push(Step { operation, uses: 0, lanes: 1 });
+                        Operand { source: Source::Step(steps.len() - 1), negative: false }
+                    })
+                    .collect(),
+            };
+            became.push(values);
+        }
+        let results = self.results.iter().map(|&result| of(&became, result, 0)).collect();
+        let mut program = Self { steps, results, rows: Vec::new() };
+        program.count_uses();
+        std::borrow::Cow::Owned(program)
+    }
+
     /// The results for given inputs and fields.
     pub fn evaluate(&self, input: impl Fn(Input) -> f64, fields: &[f64]) -> Vec<f64> {
-        let mut values: Vec<(f64, f64)> = Vec::with_capacity(self.steps.len());
+        let program = self.one_by_one();
+        let mut values: Vec<(f64, f64)> = Vec::with_capacity(program.steps.len());
         let read = |values: &[(f64, f64)], operand: Operand| {
             let value = match operand.source {
                 Source::Constant(value) => value,
@@ -160,7 +234,7 @@ impl Program {
             };
             if operand.negative { -value } else { value }
         };
-        for step in &self.steps {
+        for step in &program.steps {
             let of = |operand| read(&values, operand);
             let value = match step.operation {
                 Operation::Add(a, b) => (of(a) + of(b), 0.0),
@@ -169,16 +243,18 @@ impl Program {
                 Operation::Div(a, b) => (of(a) / of(b), 0.0),
                 Operation::Sqrt(a) => (of(a).sqrt(), 0.0),
                 Operation::SinCos(a) => of(a).sin_cos(),
+                Operation::Each(_) | Operation::Lane(..) => unreachable!("one by one"),
             };
             values.push(value);
         }
-        self.results.iter().map(|&operand| read(&values, operand)).collect()
+        program.results.iter().map(|&operand| read(&values, operand)).collect()
     }
 
     /// The constants, without their signs.
     pub fn constants(&self) -> impl Iterator<Item = f64> {
         let operands = self.steps.iter().flat_map(|step| step.operation.operands());
-        operands.chain(self.results.iter().copied()).filter_map(|operand| match operand.source {
+        let rows = self.rows.iter().flatten().copied();
+        operands.chain(rows).chain(self.results.iter().copied()).filter_map(|operand| match operand.source {
             Source::Constant(value) => Some(value),
             _ => None,
         })
@@ -201,7 +277,7 @@ impl Program {
                 read(operand);
             }
         }
-        for result in &self.results {
+        for result in self.results.iter().chain(self.rows.iter().flatten()) {
             read(*result);
         }
         for (step, uses) in self.steps.iter_mut().zip(uses) {

@@ -2,6 +2,8 @@
 
 use rustc_hash::FxHashMap;
 
+use super::lanes::{Layout, Place};
+use super::order::both;
 use super::program::{Operand, Operation, Program, Source, Step};
 use super::signs;
 use crate::mechanics::equations::Inputs;
@@ -14,13 +16,34 @@ pub fn schedule<'g>(
     results: &[Expr<'g>],
     at_hand: impl Fn(NodeId) -> Option<Operand>,
 ) -> Program {
-    let (order, nodes) = live(graph, results, at_hand);
-    let mut builder = Builder { graph, inputs, nodes, sines: FxHashMap::default(), steps: Vec::new() };
+    schedule_in(&Layout::one_by_one(graph), graph, inputs, results, at_hand)
+}
+
+/// The same with some of it side by side.
+pub(super) fn schedule_in<'g>(
+    layout: &Layout<'g>,
+    graph: &'g Graph,
+    inputs: Inputs,
+    results: &[Expr<'g>],
+    at_hand: impl Fn(NodeId) -> Option<Operand>,
+) -> Program {
+    let (order, nodes) = live(graph, layout, results, &at_hand);
+    let mut builder = Builder {
+        graph,
+        inputs,
+        layout,
+        at_hand: &at_hand,
+        nodes,
+        sines: FxHashMap::default(),
+        laid: FxHashMap::default(),
+        steps: Vec::new(),
+        rows: Vec::new(),
+    };
     for id in order {
         builder.node(id);
     }
     let results = results.iter().map(|&result| builder.result(result)).collect();
-    let mut program = Program { steps: builder.steps, results };
+    let mut program = Program { steps: builder.steps, results, rows: builder.rows };
     program.count_uses();
     signs::settle(&mut program);
     program
@@ -49,7 +72,7 @@ pub(super) fn arithmetic(graph: &Graph, results: &[Expr<'_>], is_free: impl Fn(N
     count
 }
 
-fn nodes_of(results: &[Expr<'_>]) -> Vec<NodeId> {
+pub(super) fn nodes_of(results: &[Expr<'_>]) -> Vec<NodeId> {
     let node = |result: &Expr<'_>| match *result {
         Expr::Node { id, .. } => Some(id),
         Expr::Constant(_) => None,
@@ -74,6 +97,7 @@ struct Live {
 /// The nodes that the results need, in order.
 fn live(
     graph: &Graph,
+    layout: &Layout<'_>,
     results: &[Expr<'_>],
     at_hand: impl Fn(NodeId) -> Option<Operand>,
 ) -> (Vec<NodeId>, NodeMap<Live>) {
@@ -81,6 +105,7 @@ fn live(
     let mut order = Vec::new();
     let mut stack = nodes_of(results);
     while let Some(id) = stack.pop() {
+        let id = layout.representative(id);
         if let Some(node) = nodes.get_mut(id) {
             node.uses += 1;
             continue;
@@ -94,16 +119,27 @@ fn live(
         nodes.insert(id, Live { op, uses: 1, depth: 0, read_by_sum: false, can_fuse: false, made });
         order.push(id);
     }
+    let is_at_hand = |id: NodeId| nodes[id].made.is_some();
+    let operands = |id| match is_at_hand(id) {
+        true => [None; 2],
+        false => both(graph.op(id).operands().map(|operand| layout.representative(operand))),
+    };
+    let results: Vec<NodeId> = nodes_of(results).into_iter().map(|id| layout.representative(id)).collect();
     order.sort_unstable_by_key(|id| id.index());
-    let order = super::order::order(graph, &order, &nodes_of(results), |id| nodes[id].made.is_some());
+    if layout.has_lanes() {
+        order = in_order(graph, &results, operands);
+    }
+    let order = super::order::order(graph, &order, &results, operands);
     for &id in &order {
         let op = nodes[id].op;
         let is_sum = matches!(op, Op::Add(..) | Op::Sub(..));
         let mut depth = 0;
         for operand in op.operands() {
+            let operand = layout.representative(operand);
+            let is_alike = layout.lanes(operand) == layout.lanes(id);
             // What is at hand has operands that nobody needs.
             if let Some(operand) = nodes.get_mut(operand) {
-                operand.read_by_sum |= is_sum;
+                operand.read_by_sum |= is_sum && is_alike;
                 depth = depth.max(operand.depth + 1);
             }
         }
@@ -116,38 +152,80 @@ fn live(
     (order, nodes)
 }
 
-struct Builder<'g> {
+/// The nodes that results need, each after its operands.
+fn in_order(
+    graph: &Graph,
+    results: &[NodeId],
+    operands: impl Fn(NodeId) -> [Option<NodeId>; 2],
+) -> Vec<NodeId> {
+    let mut done: NodeMap<()> = NodeMap::new(graph);
+    let mut order = Vec::new();
+    let mut stack: Vec<(NodeId, bool)> = results.iter().rev().map(|&id| (id, false)).collect();
+    while let Some((id, is_ready)) = stack.pop() {
+        if done.contains(id) {
+            continue;
+        }
+        if is_ready {
+            done.insert(id, ());
+            order.push(id);
+            continue;
+        }
+        stack.push((id, true));
+        stack.extend(operands(id).into_iter().flatten().map(|operand| (operand, false)));
+    }
+    order
+}
+
+struct Builder<'a, 'g> {
     graph: &'g Graph,
     inputs: Inputs,
+    layout: &'a Layout<'g>,
+    at_hand: &'a dyn Fn(NodeId) -> Option<Operand>,
     nodes: NodeMap<Live>,
+    /// The steps that lay inputs of branches side by side, and take results apart: by the node, and its lane.
+    laid: FxHashMap<(NodeId, Option<usize>), usize>,
+    rows: Vec<Vec<Operand>>,
     /// The step that turns an angle into its sine and cosine.
     sines: FxHashMap<NodeId, usize>,
     steps: Vec<Step>,
 }
 
-impl Builder<'_> {
+impl<'g> Builder<'_, 'g> {
     fn node(&mut self, id: NodeId) {
         let Live { op, read_by_sum, can_fuse, made, .. } = self.nodes[id];
         if made.is_some() || (can_fuse && read_by_sum) {
             // It is at hand, or the sum that reads it decides what becomes of it.
             return;
         }
+        let lanes = self.layout.lanes(id);
         let source = match op {
             Op::Constant(k) => Source::Constant(self.graph.number(k).to_f64()),
             Op::Symbol(symbol) => Source::Input(self.inputs.meaning(symbol)),
-            Op::Add(a, b) => match self.fused(a, b) {
-                Some((product, other)) => self.multiply_add(product, false, other, false),
-                None => self.push(Operation::Add(self.operand(a), self.operand(b))),
+            Op::Add(a, b) => match self.fused(a, b, lanes) {
+                Some((product, other)) => self.multiply_add(product, false, other, false, lanes),
+                None => {
+                    let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
+                    self.push(Operation::Add(a, b), lanes)
+                }
             },
-            Op::Sub(a, b) => match self.fused(a, b) {
-                Some((product, other)) => self.multiply_add(product, product == b, other, other == b),
-                None => self.push(Operation::Add(self.operand(a), negated(self.operand(b)))),
+            Op::Sub(a, b) => match self.fused(a, b, lanes) {
+                Some((product, other)) => self.multiply_add(product, product == b, other, other == b, lanes),
+                None => {
+                    let (a, b) = (self.operand(a, lanes), negated(self.operand(b, lanes)));
+                    self.push(Operation::Add(a, b), lanes)
+                }
             },
-            Op::Mul(..) | Op::Scale(..) => self.product(op),
-            Op::Div(a, b) => self.push(Operation::Div(self.operand(a), self.operand(b))),
-            Op::Sqrt(a) => self.push(Operation::Sqrt(self.operand(a))),
-            Op::Sin(a) => Source::Sin(self.sin_cos(a)),
-            Op::Cos(a) => Source::Cos(self.sin_cos(a)),
+            Op::Mul(..) | Op::Scale(..) => self.product(op, lanes),
+            Op::Div(a, b) => {
+                let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
+                self.push(Operation::Div(a, b), lanes)
+            }
+            Op::Sqrt(a) => {
+                let a = self.operand(a, lanes);
+                self.push(Operation::Sqrt(a), lanes)
+            }
+            Op::Sin(a) => Source::Sin(self.sin_cos(a, lanes)),
+            Op::Cos(a) => Source::Cos(self.sin_cos(a, lanes)),
         };
         self.make(id, source);
     }
@@ -158,31 +236,80 @@ impl Builder<'_> {
         }
     }
 
-    fn push(&mut self, operation: Operation) -> Source {
-        self.steps.push(Step { operation, uses: 0 });
+    fn push(&mut self, operation: Operation, lanes: usize) -> Source {
+        self.steps.push(Step { operation, uses: 0, lanes });
         Source::Step(self.steps.len() - 1)
     }
 
     /// The step that computes sine and cosine of a node; one for both.
-    fn sin_cos(&mut self, angle: NodeId) -> usize {
+    fn sin_cos(&mut self, angle: NodeId, lanes: usize) -> usize {
         if let Some(&step) = self.sines.get(&angle) {
             return step;
         }
-        self.push(Operation::SinCos(self.operand(angle)));
+        let operand = self.operand(angle, lanes);
+        self.push(Operation::SinCos(operand), lanes);
         let step = self.steps.len() - 1;
         self.sines.insert(angle, step);
         step
     }
 
-    fn operand(&self, id: NodeId) -> Operand {
-        self.nodes[id].made.expect("a node is made before it is read")
+    /// A node as a step that computes so many numbers reads it.
+    fn operand(&mut self, id: NodeId, lanes: usize) -> Operand {
+        let place = self.layout.place(id);
+        let made = self.nodes.get(self.layout.representative(id)).and_then(|node| node.made);
+        match place {
+            None if lanes > 1 && self.layout.row(id).is_some() => self.row(id, lanes),
+            None => made.expect("a node is made before it is read"),
+            Some(_) if lanes > 1 => made.expect("a node is made before it is read"),
+            Some(Place { node, lane, negative }) => {
+                let made = made.expect("a node is made before it is read");
+                let step = match self.laid.get(&(node, Some(lane))) {
+                    Some(&step) => step,
+                    None => {
+                        self.push(Operation::Lane(Operand { negative: false, ..made }, lane), 1);
+                        self.laid.insert((node, Some(lane)), self.steps.len() - 1);
+                        self.steps.len() - 1
+                    }
+                };
+                Operand { source: Source::Step(step), negative: negative != made.negative }
+            }
+        }
     }
 
-    fn result(&self, result: Expr<'_>) -> Operand {
+    /// What stands in the place of a node in all branches, side by side.
+    fn row(&mut self, id: NodeId, lanes: usize) -> Operand {
+        let step = match self.laid.get(&(id, None)) {
+            Some(&step) => step,
+            None => {
+                let row = self.layout.row(id).unwrap_or_default();
+                let operands = row.iter().map(|&expr| self.of_leaf(expr)).collect();
+                self.rows.push(operands);
+                self.push(Operation::Each(self.rows.len() - 1), lanes);
+                self.laid.insert((id, None), self.steps.len() - 1);
+                self.steps.len() - 1
+            }
+        };
+        Operand { source: Source::Step(step), negative: false }
+    }
+
+    /// An input, or what is at hand.
+    fn of_leaf(&self, expr: Expr<'g>) -> Operand {
+        let Expr::Node { id, negative, .. } = expr else { unreachable!("a branch has nodes") };
+        let operand = match ((self.at_hand)(id), self.graph.op(id)) {
+            (Some(operand), _) => operand,
+            (None, Op::Symbol(symbol)) => {
+                Operand { source: Source::Input(self.inputs.meaning(symbol)), negative: false }
+            }
+            (None, op) => unreachable!("{op:?} is no leaf"),
+        };
+        Operand { negative: negative != operand.negative, ..operand }
+    }
+
+    fn result(&mut self, result: Expr<'_>) -> Operand {
         match result {
             Expr::Constant(value) => Operand::constant(value),
             Expr::Node { id, negative, .. } => {
-                let value = self.operand(id);
+                let value = self.operand(id, 1);
                 Operand { negative: negative != value.negative, ..value }
             }
         }
@@ -190,36 +317,39 @@ impl Builder<'_> {
 
     /// Which operand of a sum is multiplied within it, and the other one. Of two candidates the one that is
     /// ready later.
-    fn fused(&mut self, a: NodeId, b: NodeId) -> Option<(NodeId, NodeId)> {
-        let (first, second) = (&self.nodes[a], &self.nodes[b]);
-        let (product, other) = match (first.can_fuse, second.can_fuse) {
+    fn fused(&mut self, a: NodeId, b: NodeId, lanes: usize) -> Option<(NodeId, NodeId)> {
+        let can_fuse = |id: NodeId| {
+            let own = self.layout.representative(id);
+            self.nodes.get(own).is_some_and(|node| node.can_fuse) && self.layout.lanes(id) == lanes
+        };
+        let depth = |id: NodeId| self.nodes[self.layout.representative(id)].depth;
+        let (product, other) = match (can_fuse(a), can_fuse(b)) {
             (false, false) => return None,
             (true, false) => (a, b),
             (false, true) => (b, a),
-            (true, true) if first.depth >= second.depth => (a, b),
+            (true, true) if depth(a) >= depth(b) => (a, b),
             (true, true) => (b, a),
         };
-        let Live { op, can_fuse, made, .. } = self.nodes[other];
-        if can_fuse && made.is_none() {
-            let source = self.product(op);
+        if can_fuse(other) && self.nodes[other].made.is_none() {
+            let source = self.product(self.nodes[other].op, lanes);
             self.make(other, source);
         }
         Some((product, other))
     }
 
-    fn factors(&self, op: Op) -> (Operand, Operand) {
+    fn factors(&mut self, op: Op, lanes: usize) -> (Operand, Operand) {
         match op {
-            Op::Mul(a, b) => (self.operand(a), self.operand(b)),
-            Op::Scale(k, a) => (Operand::constant(self.graph.number(k)), self.operand(a)),
+            Op::Mul(a, b) => (self.operand(a, lanes), self.operand(b, lanes)),
+            Op::Scale(k, a) => (Operand::constant(self.graph.number(k)), self.operand(a, lanes)),
             op => unreachable!("{op:?} is no product"),
         }
     }
 
-    fn product(&mut self, op: Op) -> Source {
-        let (a, b) = self.factors(op);
+    fn product(&mut self, op: Op, lanes: usize) -> Source {
+        let (a, b) = self.factors(op, lanes);
         match a.source {
-            Source::Constant(2.0) if !a.negative => self.push(Operation::Add(b, b)),
-            _ => self.push(Operation::Mul(a, b)),
+            Source::Constant(2.0) if !a.negative => self.push(Operation::Add(b, b), lanes),
+            _ => self.push(Operation::Mul(a, b), lanes),
         }
     }
 
@@ -229,11 +359,13 @@ impl Builder<'_> {
         minus_product: bool,
         other: NodeId,
         minus_other: bool,
+        lanes: usize,
     ) -> Source {
-        let (a, b) = self.factors(self.nodes[product].op);
+        let (a, b) = self.factors(self.nodes[product].op, lanes);
         let a = if minus_product { negated(a) } else { a };
-        let other = if minus_other { negated(self.operand(other)) } else { self.operand(other) };
-        self.push(Operation::MulAdd(a, b, other))
+        let other =
+            if minus_other { negated(self.operand(other, lanes)) } else { self.operand(other, lanes) };
+        self.push(Operation::MulAdd(a, b, other), lanes)
     }
 }
 

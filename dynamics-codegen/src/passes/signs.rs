@@ -21,7 +21,8 @@ fn leading_minus(program: &Program) -> Vec<bool> {
             Operation::Add(a, b) => minus(a) && minus(b),
             Operation::Mul(a, b) | Operation::Div(a, b) => minus(a) != minus(b),
             Operation::MulAdd(a, b, c) => (minus(a) != minus(b)) && minus(c),
-            Operation::Sqrt(_) | Operation::SinCos(_) => false,
+            Operation::Lane(a, _) => minus(a),
+            Operation::Sqrt(_) | Operation::SinCos(_) | Operation::Each(_) => false,
         };
     }
     flips
@@ -38,9 +39,9 @@ fn apply(program: &mut Program, flips: &[bool]) {
         ..operand
     };
     for (step, &turn) in program.steps.iter_mut().zip(flips) {
-        step.operation = turned(mapped(step.operation, settled), turn);
+        step.operation = turned(step.operation.mapped(settled), turn);
     }
-    for result in &mut program.results {
+    for result in program.results.iter_mut().chain(program.rows.iter_mut().flatten()) {
         *result = settled(*result);
     }
 }
@@ -80,9 +81,9 @@ fn turn_unwanted(program: &mut Program) {
         ..operand
     };
     for step in &mut program.steps {
-        step.operation = turned(mapped(step.operation, settled), false);
+        step.operation = turned(step.operation.mapped(settled), false);
     }
-    for result in &mut program.results {
+    for result in program.results.iter_mut().chain(program.rows.iter_mut().flatten()) {
         *result = settled(*result);
     }
 }
@@ -136,17 +137,6 @@ fn negated(operand: Operand) -> Operand {
     Operand { negative: !operand.negative, ..operand }
 }
 
-fn mapped(operation: Operation, f: impl Fn(Operand) -> Operand) -> Operation {
-    match operation {
-        Operation::Add(a, b) => Operation::Add(f(a), f(b)),
-        Operation::Mul(a, b) => Operation::Mul(f(a), f(b)),
-        Operation::MulAdd(a, b, c) => Operation::MulAdd(f(a), f(b), f(c)),
-        Operation::Div(a, b) => Operation::Div(f(a), f(b)),
-        Operation::Sqrt(a) => Operation::Sqrt(f(a)),
-        Operation::SinCos(a) => Operation::SinCos(f(a)),
-    }
-}
-
 /// The operation, negated if `turn`; a product has at most one minus, in front.
 fn turned(operation: Operation, turn: bool) -> Operation {
     let sign = |operand: Operand| Operand { negative: operand.negative != turn, ..operand };
@@ -168,6 +158,7 @@ fn turned(operation: Operation, turn: bool) -> Operation {
             let (a, b) = product(a, b);
             Operation::MulAdd(a, b, sign(c))
         }
-        Operation::Sqrt(_) | Operation::SinCos(_) => operation,
+        Operation::Lane(a, lane) => Operation::Lane(sign(a), lane),
+        Operation::Sqrt(_) | Operation::SinCos(_) | Operation::Each(_) => operation,
     }
 }

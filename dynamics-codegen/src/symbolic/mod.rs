@@ -9,6 +9,7 @@ mod graph;
 mod node_map;
 pub mod number;
 mod real;
+mod substitute;
 
 pub use differentiate::Differentiator;
 pub use evaluate::Evaluator;
@@ -17,3 +18,4 @@ pub use graph::{Graph, NodeId, Op, Operands, SymbolId};
 pub use node_map::NodeMap;
 pub use number::Number;
 pub use real::Real;
+pub use substitute::Substitution;

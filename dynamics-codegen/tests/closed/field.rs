@@ -245,6 +245,7 @@ impl Point {
 
     /// The results of a program; its constants, which are rounded, are read as the simplest fractions that round to them.
     pub(crate) fn program(&self, program: &Program, inputs: Inputs, fields: &[Value]) -> Option<Vec<Value>> {
+        let program = &*program.one_by_one();
         let symbol = |input: Input| match input {
             Input::Parameter(k) => SymbolId(u32::try_from(k).unwrap()),
             Input::Argument(argument, k) => inputs.symbol(argument, k),
@@ -272,6 +273,7 @@ impl Point {
                     values.push(self.sine_and_cosine(&of(a)?)?);
                     continue;
                 }
+                Operation::Each(..) | Operation::Lane(..) => unreachable!("one by one"),
             };
             values.push([value.clone(), value]);
         }

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::names::CALLED;
-use crate::emit::body::{Binding, Language, Named, Statement, Sums, last_readers};
+use crate::emit::body::{Binding, Language, Named, SideBySide, Statement, Sums, last_readers};
 use crate::emit::names::{Names, component};
 use crate::mechanics::closed::ClosedForms;
 use crate::mechanics::equations::Argument;
@@ -79,6 +79,10 @@ impl Language for Context<'_> {
         format!("sqrt({a})")
     }
 
+    fn side_by_side(&self) -> Option<&dyn SideBySide> {
+        Some(&Lanes)
+    }
+
     fn sums(&self) -> Sums {
         Sums::Regrouped // fewer parentheses: generated code is read
     }
@@ -111,12 +115,39 @@ impl Language for Context<'_> {
     }
 }
 
+/// Numbers side by side in the run time's type for them.
+struct Lanes;
+
+impl SideBySide for Lanes {
+    fn each(&self, number: &str) -> String {
+        format!("each({number})")
+    }
+
+    fn constant(&self, value: f64) -> String {
+        format!("Each::of({value:?})")
+    }
+
+    fn row(&self, numbers: &[String]) -> String {
+        format!("Each([{}])", numbers.join(", "))
+    }
+
+    fn constants(&self, values: &[f64]) -> String {
+        let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
+        format!("each_of([{}])", values.join(", "))
+    }
+
+    fn one(&self, numbers: &str, place: usize) -> String {
+        format!("{numbers}.0[{place}]")
+    }
+}
+
 /// A line for each statement, and one for all sines that stand together; `first` is the number of the first statement.
 fn write_bindings(lines: &mut String, statements: &[Statement], first: usize, pad: &str) {
     let mut done = 0;
     while let Some(statement) = statements.get(done) {
-        let is_sine =
-            |next: &&Statement| matches!(next.named, Named::SinCos(..)) && !next.reads_from(first + done);
+        let is_sine = |next: &&Statement| {
+            matches!(next.named, Named::SinCos(..)) && next.lanes == 1 && !next.reads_from(first + done)
+        };
         let together = statements[done..].iter().take(SINES).take_while(is_sine).count();
         let _ = match together {
             0 | 1 => writeln!(lines, "{pad}{}", binding(statement)),

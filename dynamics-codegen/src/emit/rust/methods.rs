@@ -37,6 +37,10 @@ pub(super) fn write(
             let how = if *in_lanes { ", in lanes" } else { "" };
             writeln!(text, "    ///\n    /// By recursion over a table of links{how}: about {operations}.")
         }
+        Plan::StraightLine { program, .. } if program.has_lanes() => writeln!(
+            text,
+            "    ///\n    /// {operations}; of branches that are alike side by side, where `l` is of each."
+        ),
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
     let mut shared = None;
