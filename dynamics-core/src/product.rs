@@ -12,8 +12,8 @@ pub(crate) const STRIP: usize = 4;
 pub(crate) const COLUMNS: usize = if WIDE { 8 } else { 4 };
 /// So many rows of four columns, for the same reason.
 pub(crate) const LONG_STRIP: usize = if WIDE { 8 } else { 4 };
-/// Whether a register holds a strip of doubles.
-const WIDE: bool = cfg!(target_feature = "avx");
+/// Whether 32 doubles, and what they are made of, fit into the registers.
+const WIDE: bool = cfg!(any(target_feature = "avx", target_arch = "aarch64"));
 
 /// `A·B`, R×C.
 ///

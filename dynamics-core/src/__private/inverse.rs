@@ -10,7 +10,7 @@ use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
 /// `∂a/∂q = −M⁻¹ ∂τ/∂q`, `∂a/∂v = −M⁻¹ ∂τ/∂v` and `∂a/∂τ = M⁻¹`, from the derivatives of inverse dynamics at the
-/// acceleration that τ causes, and the factors of its `∂τ/∂a = M`.
+/// acceleration that τ causes, and the factors of its `∂τ/∂a = M`. The former are overwritten.
 ///
 /// The former two are solved for: a product with `M⁻¹` would take half the time, and leave a residual that grows with
 /// the condition of M.
@@ -20,7 +20,7 @@ use crate::scalar::Scalar;
 /// Five products of a triangular with a square matrix.
 #[inline(never)] // or else the result is copied once more
 pub fn forward_from_inverse<T: Scalar, const N: usize>(
-    mut inverse: InverseDynamicsDerivatives<T, N>,
+    inverse: &mut InverseDynamicsDerivatives<T, N>,
     factors: &Factors<T, N>,
 ) -> ForwardDynamicsDerivatives<T, N> {
     // In their places: the first cache has no room for three matrices more.

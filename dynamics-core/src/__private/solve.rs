@@ -2,8 +2,8 @@
 //!
 //! By the inverse of the triangular factor: that is the product of two triangular matrices with the right-hand sides,
 //! in lanes over their rows, with no step that waits for another. Unlike `M⁻¹` itself it loses nothing to the condition
-//! of M: all that is ill-conditioned stays in D. Factor and inverse are computed four rows at a time, so that what they
-//! owe to other rows are products too, and only the four wait for each other. What the tree leaves zero is skipped,
+//! of M: all that is ill-conditioned stays in D. Factor and inverse are computed four rows or columns at a time, so that
+//! what they owe to others are products too, and only the four wait for each other. What the tree leaves zero is skipped,
 //! strip by strip of four rows.
 //!
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, §6.5; J. Du Croz, N. Higham, *Stability of methods

@@ -205,13 +205,13 @@ fn by_loops(
         (_, None) => "        let mut factors = Factors::new(tree);\n        factors.factor(&inverse.dtau_da.data.0);\n".to_owned(),
     };
     text.push_str("        let a = self.forward_dynamics(q, v, tau);\n");
-    text.push_str("        let inverse = self.inverse_dynamics_derivatives(q, v, &a);\n");
+    text.push_str("        let mut inverse = self.inverse_dynamics_derivatives(q, v, &a);\n");
     text.push_str(&factors);
     text.push_str(match method {
         Method::ForwardDynamicsWithDerivatives => {
-            "        (a, forward_from_inverse(inverse, &factors))\n    }\n"
+            "        (a, forward_from_inverse(&mut inverse, &factors))\n    }\n"
         }
-        _ => "        forward_from_inverse(inverse, &factors)\n    }\n",
+        _ => "        forward_from_inverse(&mut inverse, &factors)\n    }\n",
     });
     text
 }

@@ -2,9 +2,9 @@
 //!
 //! What the links need one by one stands side by side, number by number, so that loops over links run in vector
 //! lanes; what goes from link to link along the tree is carried in registers; and the entries of a matrix, one for each
-//! pair of joints of which one hangs on the other, are computed in tiles of four by four. All in world axes, each
-//! quantity at the origin of its own link: only the arms between two links are added, so that no precision is lost
-//! far from the base.
+//! pair of joints of which one hangs on the other, are a product of matrices, some columns at a time. All in world axes,
+//! each quantity at the origin of its own link or of one that is near it in the table: only the arms between two links
+//! are added, so that no precision is lost far from the base.
 //!
 //! For trees whose every link has one degree of freedom, with the coordinate and the speed of its own index, and
 //! whose links stand in the order of a walk: right after each link comes all that hangs on it.
