@@ -267,7 +267,7 @@ pub(crate) fn passive_rows(robot: &Robot<'_>) -> Vec<Vec<String>> {
 }
 
 /// What is added to the energies, as `V + k / 2 * (r - r0)^2`.
-fn terms(spec: &RobotSpec) -> String {
+pub(crate) fn terms(spec: &RobotSpec) -> String {
     let line = |term: &TermSpec| {
         let energy = match term.kind {
             TermKind::Potential => "V",

@@ -2,7 +2,7 @@
 
 use core::fmt;
 
-/// `M`, `C`, `G`, `T`, `V` and `L` of a robot in closed form, SI units, as the derive writes them.
+/// `M`, `C`, `G`, `P`, `T`, `V` and `L` of a robot in closed form, SI units, as the derive writes them.
 ///
 /// They come from the same robot as the code, and are compared with it exactly where this is tested. A field of the struct
 /// has its own name, the coordinates those of their joints if these are letters (`theta1` is θ₁), and speeds have dots.
@@ -21,6 +21,9 @@ pub struct Equations {
     pub coriolis_matrix: Equation,
     /// `G(q) = ∂V/∂q`, n×1, on the left-hand side.
     pub gravity_forces: Equation,
+    /// `P(q,v)` of `τ = M·a + C·v + G + P`, n×1: dampers, friction, springs and terms of dissipation; none where nothing
+    /// acts by itself.
+    pub passive_forces: Option<Equation>,
     /// `T(q,v)`, J.
     pub kinetic_energy: Equation,
     /// `V(q)`, J.
@@ -60,13 +63,15 @@ impl fmt::Display for Equation {
 impl fmt::Display for Equations {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (letter, equation) in [
-            ("M", self.mass_matrix),
-            ("C", self.coriolis_matrix),
-            ("G", self.gravity_forces),
-            ("T", self.kinetic_energy),
-            ("V", self.potential_energy),
-            ("L", self.lagrangian),
+            ("M", Some(self.mass_matrix)),
+            ("C", Some(self.coriolis_matrix)),
+            ("G", Some(self.gravity_forces)),
+            ("P", self.passive_forces),
+            ("T", Some(self.kinetic_energy)),
+            ("V", Some(self.potential_energy)),
+            ("L", Some(self.lagrangian)),
         ] {
+            let Some(equation) = equation else { continue };
             let rows = equation.unicode.lines().count();
             for (k, row) in equation.unicode.lines().enumerate() {
                 // A matrix has its letter on its middle line.

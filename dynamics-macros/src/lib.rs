@@ -355,7 +355,7 @@ use proc_macro::TokenStream;
 /// `check()` says whether every field that the equations read is finite, and every mass positive.
 ///
 /// The equations themselves, as a lecture writes them, are in the documentation of `mass_matrix` and the other methods
-/// (an editor shows it on the method's name), and in constants: `equations()` has M, C, G, T, V and L in Unicode and LaTeX.
+/// (an editor shows it on the method's name), and in constants: `equations()` has M, C, G, P, T, V and L in Unicode and LaTeX.
 /// Fields and joints that are letters keep them: `theta1` is θ₁, `m_cart` is m with an index. Other coordinates are θ or d,
 /// or what fields leave. A letter of the equations gives way to a field's: beside a field `M` the mass matrix is 𝐌.
 /// A robot of more than four links has no such method, nor has one whose equations are too long to be read; `dynamics

@@ -7,7 +7,7 @@ use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::{self, ClosedForms, MOST_DOF_WITH_NAMES, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::mechanics::letters::{self, Letters};
-use dynamics_codegen::model::{self, Model};
+use dynamics_codegen::model::{self, Model, Passive};
 use dynamics_codegen::spec::RobotSpec;
 use dynamics_codegen::symbolic::{Graph, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
@@ -75,20 +75,45 @@ fn with_letters<'g>(robot: &Robot<'_>, graph: &'g Graph, input: &Input) -> Resul
 
 /// The equation of which these are the parts. Its words have no article that could be taken for a letter.
 fn told(subject: &Subject<'_, '_>) -> String {
-    let (tree, links) = (&subject.robot.tree, &subject.robot.model.links);
-    let acts =
-        tree.links.iter().zip(links).filter(|(_, info)| info.acts).any(|(link, _)| {
-            [link.passive.damping, link.passive.friction, link.passive.stiffness] != [0.0; 3]
-        });
-    let [passive, forces] = match acts {
-        true => [" + passive", ", and passive are the forces of dampers, friction and springs"],
-        false => ["", ""],
+    let tree = &subject.robot.tree;
+    let passive = passive(subject.robot);
+    let (term, forces) = match &passive[..] {
+        [] => ("", String::new()),
+        names => (" + P(q,v)", format!(", and P are the forces of {}", listed(names))),
     };
     let rates = match tree.quaternions().next() {
         Some(_) => "v = q̇, but for ball and free joints, whose v is the twist of the body in its own axes,",
         None => "v = q̇",
     };
-    format!("The joints move by M(q)·a + C(q,v)·v + G(q){passive} = τ, where {rates} and a = v̇{forces}.")
+    format!("The joints move by M(q)·a + C(q,v)·v + G(q){term} = τ, where {rates} and a = v̇{forces}.")
+}
+
+/// What acts in the robot by itself, beside its potentials.
+pub(super) fn passive(robot: &Robot<'_>) -> Vec<&'static str> {
+    let has = |of: fn(&Passive<f64>) -> f64| {
+        robot
+            .tree
+            .links
+            .iter()
+            .zip(&robot.model.links)
+            .any(|(link, info)| info.acts && of(&link.passive) != 0.0)
+    };
+    let kinds = [
+        (has(|passive| passive.damping), "dampers"),
+        (has(|passive| passive.friction), "friction"),
+        (has(|passive| passive.stiffness), "springs"),
+        (!robot.tree.terms.dissipation.is_empty(), "terms of dissipation"),
+    ];
+    kinds.into_iter().filter(|(acts, _)| *acts).map(|(_, name)| name).collect()
+}
+
+/// `dampers, friction and springs`
+pub(super) fn listed(names: &[&str]) -> String {
+    match names {
+        [] => String::new(),
+        [name] => (*name).to_owned(),
+        [names @ .., last] => format!("{} and {last}", names.join(", ")),
+    }
 }
 
 /// With numbers that people can read.
@@ -99,6 +124,7 @@ fn rounded(forms: ClosedForms) -> ClosedForms {
         mass_matrix: of(&forms.mass_matrix),
         coriolis_matrix: of(&forms.coriolis_matrix),
         gravity_forces: of(&forms.gravity_forces),
+        passive_forces: forms.passive_forces.as_ref().map(of),
         kinetic_energy: short(&forms.kinetic_energy),
         potential_energy: short(&forms.potential_energy),
         lagrangian: short(&forms.lagrangian),
@@ -169,6 +195,10 @@ fn written(forms: &ClosedForms, is_flat: bool) -> Vec<Equation> {
         of_matrix("Mass matrix", "M(q)", &forms.mass_matrix, notation),
         of_matrix("Coriolis matrix, with Ṁ = C + Cᵀ", "C(q,v)", &forms.coriolis_matrix, notation),
         of_matrix(potential, "G(q)", &forms.gravity_forces, notation),
+    ]);
+    let passive = forms.passive_forces.iter();
+    equations.extend(passive.map(|forces| of_matrix("Passive forces", "P(q,v)", forces, notation)));
+    equations.extend([
         of_form("Kinetic energy", "T", &forms.kinetic_energy, notation),
         of_form("Potential energy", "V", &forms.potential_energy, notation),
         of_form("Lagrangian, L = T − V", "L", &forms.lagrangian, notation),

@@ -27,8 +27,16 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
             .heading("Joints that follow others")
             .list(followers.lines().map(|line| format!("`{}`", line.trim())));
     }
+    let terms = without_margin(&check::terms(&robot.spec));
+    let section = match terms.is_empty() {
+        true => section,
+        false => section
+            .heading("Terms of the energies")
+            .preformatted("What is added to the potential, the dissipation and the kinetic energy", &terms),
+    };
     let passive = check::passive_rows(robot);
     match passive.is_empty() {
+        true if robot.tree.frames.is_empty() => section,
         true => section.text("No rotors, dampers, friction or springs act in the joints."),
         false => section.heading("What acts in joints by itself").table(table(
             "Inertia of rotors, as the joint feels it; damping; friction; stiffness of springs",
@@ -57,7 +65,11 @@ fn of_bodies(section: Section, subject: &Subject<'_, '_>, bodies: &[Body]) -> Se
 /// The tree as `check` draws it, without its margin.
 fn tree(subject: &Subject<'_, '_>) -> String {
     let drawn = tree::draw(&subject.robot.spec, &subject.robot.report.root);
-    drawn.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect::<Vec<_>>().join("\n")
+    without_margin(&drawn)
+}
+
+fn without_margin(text: &str) -> String {
+    text.lines().map(|line| line.strip_prefix("  ").unwrap_or(line)).collect::<Vec<_>>().join("\n")
 }
 
 /// Rows with their head before them; the columns behind the names are numbers.

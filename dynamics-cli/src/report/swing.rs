@@ -4,6 +4,7 @@ use dynamics_core::Energy;
 use dynamics_view::page::{Section, number};
 use dynamics_view::{Chart, Coordinate, Figure, Measure};
 
+use super::equations::{listed, passive};
 use super::{Subject, stage};
 use crate::absence::Absent;
 use crate::failure::Failure;
@@ -152,16 +153,14 @@ impl Swing {
         };
         let drift = self.moments.iter().map(|now| (now.energy.total() - first.energy.total()).abs());
         let drift = number(drift.fold(0.0, f64::max), 2);
-        let loses = subject
-            .robot
-            .tree
-            .links
-            .iter()
-            .any(|link| link.passive.damping != 0.0 || link.passive.friction != 0.0);
-        let account = match loses {
-            true => format!(
-                "Dampers and friction, and the method's error, changed the total energy by up to {drift} J."
-            ),
+        let losses = passive(subject.robot).into_iter().filter(|kind| *kind != "springs");
+        let losses: Vec<&str> = losses.chain(["the method's error"]).collect();
+        let account = match losses.len() > 1 {
+            true => {
+                let losses = listed(&losses);
+                let first = losses[..1].to_uppercase();
+                format!("{first}{} changed the total energy by up to {drift} J.", &losses[1..])
+            }
             false => format!(
                 "Nothing takes energy from it: the total changed by no more than {drift} J, which is the method's error."
             ),

@@ -1,4 +1,4 @@
-//! The equations of a robot as people write them: `M`, `C`, `G`, `T`, `V` and `L` in closed form.
+//! The equations of a robot as people write them: `M`, `C`, `G`, `P`, `T`, `V` and `L` in closed form.
 //!
 //! They are made from the frames and masses as they were given, not from those that the programs run on, so that the
 //! robot's own parameters stand in them.
@@ -24,6 +24,9 @@ pub struct ClosedForms {
     pub coriolis_matrix: Matrix,
     /// `G(q) = ∂V/∂q`, a column.
     pub gravity_forces: Matrix,
+    /// `P(q,v)` of `τ = M·a + C·v + G + P`, a column: dampers, friction, springs and terms of dissipation; none where
+    /// nothing acts by itself.
+    pub passive_forces: Option<Matrix>,
     /// `T(q,v)`
     pub kinetic_energy: Form,
     /// `V(q)`
@@ -66,6 +69,7 @@ fn with_names<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms, Sw
         Method::KineticEnergy,
         Method::PotentialEnergy,
         Method::Lagrangian,
+        Method::PassiveForces,
     ] {
         exprs.extend(blocks(method));
     }
@@ -82,7 +86,8 @@ fn multiplied_out<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms
     let [q, v] = [Argument::Q, Argument::V].map(|argument| inputs.vector(graph, argument));
     let T = plain::kinetic_energy(&model.tree, &q, &v);
     let V = plain::potential_energy(&model.tree, &q);
-    let mut lagrange = Lagrange::new(model, graph, &notation, [T, V])?;
+    let P = plain::passive::forces(&model.tree, &q, &v);
+    let mut lagrange = Lagrange::new(model, graph, &notation, [T, V], P)?;
     let n = inputs.dof;
     let M = lagrange.mass_matrix()?;
     let mut all: Vec<Polynomial> = (0..n).flat_map(|i| M[i][i..].iter().cloned()).collect();
@@ -91,11 +96,12 @@ fn multiplied_out<'g>(model: &Model<'g>, graph: &'g Graph) -> Result<ClosedForms
     all.push(lagrange.T.clone());
     all.push(lagrange.V.clone());
     all.push(lagrange.T.plus(-Number::ONE, &lagrange.V));
+    all.extend(lagrange.P.iter().cloned());
     let forms = lagrange.canonical.forms(&notation, &all, Limits::READABLE.terms)?;
     Ok(assembled(notation, vec![], forms, n))
 }
 
-/// The forms of M, of which there is the upper half, C, G, T, V and L, in this order.
+/// The forms of M, of which there is the upper half, C, G, T, V, L and P, in this order.
 fn assembled(
     notation: Notation,
     definitions: Vec<(SymbolId, Form)>,
@@ -107,14 +113,17 @@ fn assembled(
     let mass_matrix = Matrix::symmetric((0..n).map(|k| row(n - k)).collect());
     let coriolis_matrix = Matrix::of_rows((0..n).map(|_| row(n)).collect());
     let gravity_forces = Matrix::vector(row(n));
-    let mut next = || row(1).pop().unwrap_or(Form::ZERO);
-    let (kinetic_energy, potential_energy, lagrangian) = (next(), next(), next());
+    let [kinetic_energy, potential_energy, lagrangian] =
+        std::array::from_fn(|_| row(1).pop().unwrap_or(Form::ZERO));
+    let passive = row(n);
+    let passive_forces = passive.iter().any(|force| !force.is_zero()).then(|| Matrix::vector(passive));
     ClosedForms {
         notation,
         definitions,
         mass_matrix,
         coriolis_matrix,
         gravity_forces,
+        passive_forces,
         kinetic_energy,
         potential_energy,
         lagrangian,
@@ -126,6 +135,7 @@ struct Lagrange<'g> {
     canonical: Canonical<'g>,
     T: Polynomial,
     V: Polynomial,
+    P: Vec<Polynomial>,
     /// The symbols of coordinates and speeds.
     q: Vec<SymbolId>,
     v: Vec<SymbolId>,
@@ -142,6 +152,7 @@ impl<'g> Lagrange<'g> {
         graph: &'g Graph,
         notation: &Notation,
         [T, V]: [Expr<'g>; 2],
+        P: Vec<Expr<'g>>,
     ) -> Result<Self, Swelling> {
         let inputs = Inputs::of(model);
         let symbols = |argument| (0..inputs.size(argument)).map(|k| inputs.symbol(argument, k)).collect();
@@ -152,7 +163,7 @@ impl<'g> Lagrange<'g> {
         let units: Vec<_> = (0..inputs.dof).map(unit).collect();
         // The coordinates are among the expressions, so that they are variables in their order.
         let mut exprs = vec![T, V];
-        exprs.extend(q.iter().chain(&v));
+        exprs.extend(q.iter().chain(&v).chain(&P));
         let mut canonical = Canonical::new(graph, notation, &exprs, Limits::READABLE.work)?;
         let mut all = |exprs: Vec<Expr<'g>>| -> Result<Vec<Polynomial>, Swelling> {
             exprs.into_iter().map(|expr| canonical.polynomial(expr)).collect()
@@ -169,8 +180,9 @@ impl<'g> Lagrange<'g> {
             }
         }
         let (T, V) = (canonical.polynomial(T)?, canonical.polynomial(V)?);
+        let P = P.into_iter().map(|expr| canonical.polynomial(expr)).collect::<Result<_, _>>()?;
         let (q, v) = (symbols(Argument::Q), symbols(Argument::V));
-        Ok(Self { canonical, T, V, q, v, directions, brackets, brackets_with_v })
+        Ok(Self { canonical, T, V, P, q, v, directions, brackets, brackets_with_v })
     }
 
     /// The derivatives along the directions of unit speeds.

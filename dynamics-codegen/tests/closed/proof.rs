@@ -66,15 +66,36 @@ fn proof(name: &str, source: &str) -> Proof {
     let (q, v, a) = (symbols(Argument::Q), symbols(Argument::V), symbols(Argument::A));
     let derived = lagrange::derive(&other, &again.tree, lagrange::Coordinates { q: &q, v: &v, a: &a });
     let claim = |method, forms, lagrange| Claim { method, forms, lagrange };
-    let (t, v) = (derived.kinetic_energy, derived.potential_energy);
-    let claims = [
+    let (n, [v_of, a_of]) =
+        (inputs.dof, [&v, &a].map(|ids| ids.iter().map(|&id| other.symbol(id)).collect::<Vec<_>>()));
+    let passive: Vec<Expr<'_>> = (0..n)
+        .map(|i| {
+            let moved =
+                (0..n).map(|j| derived.mass_matrix[i][j] * a_of[j] + derived.coriolis_matrix[i][j] * v_of[j]);
+            moved.fold(derived.inverse_dynamics[i] - derived.gravity_forces[i], |left, force| left - force)
+        })
+        .collect();
+    // Friction has a square root of the speed, which the field has for half of its numbers.
+    let is_rational = |forms: &[Form]| {
+        (0..POINTS).all(|seed| {
+            let point = Point::new(&closed.notation, 0x5EED + seed);
+            forms.iter().all(|form| point.form(form).is_some())
+        })
+    };
+    let of_passive = closed.passive_forces.as_ref().map(entries).filter(|forms| is_rational(forms));
+    let mut claims = vec![
         claim(Method::MassMatrix, entries(&closed.mass_matrix), derived.mass_matrix.concat()),
         claim(Method::CoriolisMatrix, entries(&closed.coriolis_matrix), derived.coriolis_matrix.concat()),
-        claim(Method::GravityForces, entries(&closed.gravity_forces), derived.gravity_forces),
-        claim(Method::KineticEnergy, vec![closed.kinetic_energy.clone()], vec![t]),
-        claim(Method::PotentialEnergy, vec![closed.potential_energy.clone()], vec![v]),
-        claim(Method::Lagrangian, vec![closed.lagrangian.clone()], vec![t - v]),
+        claim(Method::GravityForces, entries(&closed.gravity_forces), derived.gravity_forces.clone()),
+        claim(Method::KineticEnergy, vec![closed.kinetic_energy.clone()], vec![derived.kinetic_energy]),
+        claim(Method::PotentialEnergy, vec![closed.potential_energy.clone()], vec![derived.potential_energy]),
+        claim(
+            Method::Lagrangian,
+            vec![closed.lagrangian.clone()],
+            vec![derived.kinetic_energy - derived.potential_energy],
+        ),
     ];
+    claims.extend(of_passive.map(|forms| claim(Method::PassiveForces, forms, passive)));
     let mut proof = Proof::OfPrograms;
     for seed in 0..POINTS {
         let mut point = Point::new(&closed.notation, 0x5EED + seed);

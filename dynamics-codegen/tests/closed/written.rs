@@ -37,6 +37,7 @@ fn text(forms: &ClosedForms) -> String {
     lines.extend(forms.mass_matrix.unicode_entries("M", notation));
     lines.extend(forms.coriolis_matrix.unicode_entries("C", notation));
     lines.extend(forms.gravity_forces.unicode_entries("G", notation));
+    lines.extend(forms.passive_forces.iter().flat_map(|forces| forces.unicode_entries("P", notation)));
     lines.push(format!("T = {}", forms.kinetic_energy.unicode(notation)));
     lines.push(format!("V = {}", forms.potential_energy.unicode(notation)));
     lines.push(format!("L = {}", forms.lagrangian.unicode(notation)));
@@ -228,6 +229,7 @@ fn all_forms(forms: &ClosedForms) -> Vec<Form> {
     for matrix in [&forms.mass_matrix, &forms.coriolis_matrix, &forms.gravity_forces] {
         all.extend(of_matrix(matrix));
     }
+    all.extend(forms.passive_forces.iter().flat_map(of_matrix));
     all.extend([&forms.kinetic_energy, &forms.potential_energy, &forms.lagrangian].map(Clone::clone));
     all
 }
@@ -265,8 +267,12 @@ fn closed_forms_have_the_values_of_the_plain_recursion() {
             oracle.mass_matrix(&q).concat(),
             oracle.coriolis_matrix(&q, &v).concat(),
             oracle.gravity_forces(&q),
+            forms.passive_forces.iter().flat_map(|_| oracle.passive_forces(&q, &v)).collect(),
             vec![oracle.kinetic_energy(&q, &v), oracle.potential_energy(&q), oracle.lagrangian(&q, &v)],
         ];
+        if forms.passive_forces.is_none() {
+            assert!(oracle.passive_forces(&q, &v).iter().all(|force| *force == 0.0), "{name}");
+        }
         let size = expected.concat().iter().fold(0.0_f64, |size, x| size.max(x.abs()));
         let found = all_forms(&forms)[forms.definitions.len()..]
             .iter()

@@ -36,15 +36,18 @@ impl Value<'_> {
 }
 
 /// What has a closed form: the method, its letter, and the form.
-fn values(closed: &ClosedForms) -> [(Method, &'static str, Value<'_>); 6] {
-    [
+fn values(closed: &ClosedForms) -> Vec<(Method, &'static str, Value<'_>)> {
+    let passive = closed.passive_forces.as_ref();
+    let passive = passive.map(|forces| (Method::PassiveForces, "P", Value::Matrix(forces)));
+    let always = [
         (Method::MassMatrix, "M", Value::Matrix(&closed.mass_matrix)),
         (Method::CoriolisMatrix, "C", Value::Matrix(&closed.coriolis_matrix)),
         (Method::GravityForces, "G", Value::Matrix(&closed.gravity_forces)),
         (Method::KineticEnergy, "T", Value::Form(&closed.kinetic_energy)),
         (Method::PotentialEnergy, "V", Value::Form(&closed.potential_energy)),
         (Method::Lagrangian, "L", Value::Form(&closed.lagrangian)),
-    ]
+    ];
+    always.into_iter().chain(passive).collect()
 }
 
 /// The closed form of what a method returns, as lines of its documentation, without the slashes; none if it has none.
@@ -127,7 +130,13 @@ impl Emitter<'_, '_> {
         );
         for (method, _, value) in values(closed) {
             let (unicode, latex) = (value.unicode(notation).join("\n"), value.latex(notation));
-            let _ = writeln!(text, "                {}: {},", method.name(), equation(&unicode, &latex));
+            let equation = equation(&unicode, &latex);
+            let equation =
+                if method == Method::PassiveForces { format!("Some({equation})") } else { equation };
+            let _ = writeln!(text, "                {}: {equation},", method.name());
+        }
+        if closed.passive_forces.is_none() {
+            text.push_str("                passive_forces: None,\n");
         }
         let definitions = closed.definitions.iter().map(|(symbol, form)| {
             let name = Form::Symbol(*symbol);

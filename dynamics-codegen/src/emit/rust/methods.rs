@@ -329,7 +329,9 @@ fn headline(method: Method, n: usize) -> String {
         Method::CoriolisMatrix => format!("`C(q,v)`: {n}×{n}, with `Ṁ = C + Cᵀ`."),
         Method::GravityForces => "`G(q) = ∂V/∂q`, on the left-hand side.".to_owned(),
         Method::BiasForces => "`C(q,v)·v + G(q)`.".to_owned(),
-        Method::PassiveForces => "What dampers, friction and springs do, on the left-hand side.".to_owned(),
+        Method::PassiveForces => {
+            "What dampers, friction, springs and terms of dissipation do, on the left-hand side.".to_owned()
+        }
         Method::InverseDynamics => "`τ = M·a + C·v + G`.".to_owned(),
         Method::ForwardDynamics => "`a = M⁻¹·(τ − C·v − G)`.".to_owned(),
         Method::InverseMassMatrix => format!("`M(q)⁻¹`: {n}×{n}."),
