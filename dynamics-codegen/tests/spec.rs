@@ -90,7 +90,6 @@ fn the_type_of_the_fields_in_use_is_the_robots() {
     assert_eq!(field_type("m", "struct R { m: f64 }"), "f64");
     assert_eq!(field_type("r#type", "struct R { r#type: f64 }"), "f64");
     assert_eq!(field_type("pi", "struct R { other: f64 }"), "any scalar");
-    assert_eq!(field_type("pi", "struct R { pi: f64 }"), "f64");
 }
 
 #[test]
