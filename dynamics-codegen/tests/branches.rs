@@ -157,7 +157,7 @@ fn what_acts_in_one_branch_alone_is_zero_in_the_others() {
 #[test]
 fn fields_in_branches_are_prepared() {
     let (text, attributes) =
-        (legs(4), "#[dynamics(base = free)] #[joint([j1, j4], damping = d, armature = 2 * d * d)]");
+        (legs(4), "#[dynamics(base = free)] #[joint([j1, j4], damping = d, armature = 2 * rotor)]");
     let spec = match read_urdf_with(
         "Robot",
         &["d", "rotor"],
