@@ -193,8 +193,9 @@ impl Writer<'_> {
                 item.coefficient = item.coefficient * Number::integer(2);
             }
         }
+        let place = place_of_bracket(&outside.factors, &inside);
         let sum = self.sum(&mut outside, inside);
-        Some(self.product(outside.coefficient, &outside.factors, vec![(usize::MAX, sum)]))
+        Some(self.product(outside.coefficient, &outside.factors, vec![(place, sum)]))
     }
 
     /// The terms of a bracket, one without a minus first if there is one: then there is none before the bracket.
