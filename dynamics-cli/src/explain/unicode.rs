@@ -150,7 +150,8 @@ fn side(side: &Side, notation: &Notation) -> Vec<String> {
     }
 }
 
-/// Sides on one line, or each on its own, broken before signs that are in no bracket.
+/// Sides on one line, or each on its own, broken before signs that are in no bracket; a term that is too long by itself is
+/// broken in its own.
 fn broken(sides: &[&str]) -> Vec<String> {
     let one = sides.join(" = ");
     if width(&one) <= WIDTH || sides.len() < 2 {
@@ -161,7 +162,9 @@ fn broken(sides: &[&str]) -> Vec<String> {
     for (k, side) in sides[1..].iter().enumerate() {
         let head = if k == 0 { format!("{} = ", sides[0]) } else { format!("{} = ", " ".repeat(left)) };
         let mut line = head;
-        for term in terms(side) {
+        let room = WIDTH.saturating_sub(left + 3);
+        let parts = |term: String| if width(&term) > room { terms(&term, 1) } else { vec![term] };
+        for term in terms(side, 0).into_iter().flat_map(parts) {
             let is_begun = width(&line) > left + 5;
             if is_begun && width(&line) + width(&term) > WIDTH {
                 lines.push(std::mem::replace(&mut line, " ".repeat(left + 3)));
@@ -173,15 +176,16 @@ fn broken(sides: &[&str]) -> Vec<String> {
     lines
 }
 
-/// The terms of a sum, each with the sign before it.
-fn terms(sum: &str) -> Vec<String> {
+/// The terms of a sum, each with the sign before it, where no more than so many brackets are open.
+fn terms(sum: &str, most: u32) -> Vec<String> {
     let (mut terms, mut depth) = (vec![String::new()], 0_u32);
     let signs: Vec<char> = sum.chars().collect();
     for (k, &c) in signs.iter().enumerate() {
         match c {
             '(' => depth += 1,
             ')' => depth = depth.saturating_sub(1),
-            ' ' if depth == 0
+            ' ' if k > 0
+                && depth <= most
                 && matches!(signs.get(k + 1), Some('+' | '−'))
                 && signs.get(k + 2) == Some(&' ') =>
             {

@@ -2,10 +2,11 @@
 //!
 //! Collecting is greedy, and bounded: in each step the terms that share most are put into one bracket. A bracket is worth
 //! it if it saves more than itself. Squares are not torn apart: `l² + l a` stays, and sines and cosines alone are taken out of
-//! three terms or more, for `I sin² + J cos² + K cos²` is easier read than with a bracket.
+//! three terms or more, for `I sin² + J cos² + K cos²` is easier read than with a bracket; but their squares are where there are
+//! brackets anyway, or where like terms would not stand together, as those of `(A + B) sin² + C cos²`.
 
 use super::Form;
-use super::item::{Angle, Factor, Item, Writer};
+use super::item::{Angle, Factor, Item, Writer, split_powers};
 use crate::symbolic::Number;
 
 /// What a pair of brackets costs, a symbol being 4.
@@ -14,8 +15,8 @@ const BRACKET: usize = 3;
 /// What a bracket costs that opens right behind another one.
 const DOUBLE_BRACKET: usize = 2;
 
-/// The last rank of the quantities that a sum is collected by: inertias, masses, gravity.
-const WEIGHTY: u8 = 2;
+/// The last rank of the quantities that a sum is collected by: inertias, masses, gravity, springs and dampers.
+const WEIGHTY: u8 = 6;
 
 /// Sums of more items are not collected.
 const ITEMS: usize = 80;
@@ -32,6 +33,8 @@ enum Prefer {
     Weight,
     /// Sines and cosines, but not their squares.
     Sines,
+    /// Their squares.
+    Squares,
 }
 
 /// A part of a sum: a number times factors, perhaps times a bracket.
@@ -64,7 +67,18 @@ impl Writer<'_> {
             return best;
         }
         let inner = self.by_parts(inside.clone());
-        self.shorter(self.bracketed(&outside, &inside, inner), best)
+        best = self.shorter(self.bracketed(&outside, &inside, inner), best);
+        // `m (l² + l a)` is `m l (l + a)`, but with sines it stays.
+        if inside.iter().any(Item::has_sines) {
+            return best;
+        }
+        let (least, inside) = split_powers(inside);
+        if least.is_empty() {
+            return best;
+        }
+        least.into_iter().for_each(|(factor, exponent)| outside.multiply(factor, exponent));
+        let inner = self.by_parts(inside.clone());
+        self.shorter(best, self.bracketed(&outside, &inside, inner))
     }
 
     /// The shorter one of two forms, and the first of equals.
@@ -87,7 +101,10 @@ impl Writer<'_> {
         if (items.len() <= FEW || items.iter().all(Item::has_sines))
             && best_shared(&items, Prefer::Sines, &[]) != by_gain
         {
-            best = self.shorter(best, self.sum_of(self.parts(items, Prefer::Sines)));
+            best = self.shorter(best, self.sum_of(self.parts(items.clone(), Prefer::Sines)));
+        }
+        if (has_bracket(&best) || are_apart(&items)) && share_squares(&items) {
+            best = self.shorter(self.sum_of(self.parts(items, Prefer::Squares)), best);
         }
         best
     }
@@ -207,8 +224,8 @@ impl Writer<'_> {
     }
 }
 
-/// Before which of the factors a bracket stands: one without sines before sines, one without speeds before speeds, and a
-/// sum of single symbols where the first of these would.
+/// Before which of the factors a bracket stands: a sum of speeds behind all, another one before speeds, one without sines
+/// before sines, one of parameters before coordinates, and a sum of single ones where the first of these would.
 pub(super) fn place_of_bracket(factors: &[(Factor, i32)], inside: &[Item]) -> usize {
     let before = |is_before: &dyn Fn(&Factor) -> bool| {
         factors.iter().take_while(|(factor, _)| is_before(factor)).count()
@@ -217,12 +234,47 @@ pub(super) fn place_of_bracket(factors: &[(Factor, i32)], inside: &[Item]) -> us
         inside.iter().any(|item| item.factors.iter().any(|(factor, _)| is_so(factor)))
     };
     let is_single = |item: &Item| matches!(&item.factors[..], [(factor, 1)] if factor.is_parameter());
+    let is_speed = |item: &Item| item.factors.iter().all(|(factor, _)| factor.is_moving());
+    let is_inside = |factor: &Factor| inside.iter().any(|item| item.exponent(factor) != 0);
     match inside.first().and_then(|item| item.factors.first()) {
-        Some((first, _)) if inside.iter().all(is_single) => before(&|factor| factor < first),
-        _ if has(Factor::is_moving) => factors.len(),
-        _ if has(Factor::is_trig) => before(&|factor| !factor.is_moving()),
+        Some((first, _)) if inside.iter().all(is_single) => {
+            before(&|factor| factor < first || factor.is_parameter() && is_inside(factor))
+        }
+        _ if inside.iter().all(is_speed) => factors.len(),
+        _ if has(Factor::is_trig) || has(Factor::is_moving) => before(&|factor| !factor.is_moving()),
+        _ if inside.iter().all(Item::is_of_parameters) => before(&Factor::is_parameter),
         _ => before(&|factor| !factor.is_moving() && !factor.is_trig()),
     }
+}
+
+/// Whether there is a bracket in a sum.
+fn has_bracket(form: &Form) -> bool {
+    match form {
+        Form::Sum(terms) => terms.iter().any(has_bracket),
+        Form::Negative(inner) => has_bracket(inner),
+        Form::Product(factors) => factors.iter().any(|factor| matches!(factor, Form::Sum(_))),
+        _ => false,
+    }
+}
+
+/// The squares of sines and cosines that an item has.
+fn squares(item: &Item) -> Vec<&Factor> {
+    let is_square = |(factor, exponent): &&(Factor, i32)| factor.is_trig() && *exponent == 2;
+    item.factors.iter().filter(is_square).map(|(factor, _)| factor).collect()
+}
+
+/// Whether two items have the square of one sine.
+fn share_squares(items: &[Item]) -> bool {
+    let all: Vec<&Factor> = items.iter().flat_map(squares).collect();
+    all.iter().enumerate().any(|(k, factor)| all[..k].contains(factor))
+}
+
+/// Whether squares of one sine do not follow each other, as those in `A sin² + C cos² + B sin²`.
+fn are_apart(items: &[Item]) -> bool {
+    let with_squares: Vec<Vec<&Factor>> = items.iter().map(squares).filter(|all| !all.is_empty()).collect();
+    let returns =
+        |k: usize| with_squares[k] != with_squares[k - 1] && with_squares[..k].contains(&with_squares[k]);
+    (1..with_squares.len()).any(returns)
 }
 
 /// Whether a bracket begins with another one.
@@ -235,8 +287,9 @@ fn opens_double(form: &Form) -> bool {
     matches!(first, Some(Form::Product(factors)) if matches!(factors.first(), Some(Form::Sum(_))))
 }
 
-/// The order of terms: what moves last, then what has no sines before what has, then by factors.
-type Order = (Vec<(Factor, i32)>, usize, Vec<(Factor, i32)>);
+/// The order of terms: what moves last, then what has no sines before what has, what is divided by a parameter behind others,
+/// and by factors.
+type Order = (Vec<(Factor, i32)>, [bool; 2], Vec<(Factor, i32)>);
 
 fn order(outside: &Item, inside: Option<&Item>) -> Order {
     let trig =
@@ -247,6 +300,7 @@ fn order(outside: &Item, inside: Option<&Item>) -> Order {
         };
         item.factors.iter().filter_map(moves).collect::<Vec<_>>()
     };
+    let is_divided = outside.factors.iter().any(|(factor, exponent)| factor.is_parameter() && *exponent < 0);
     let mut factors: Vec<(Factor, i32)> = outside.factors.clone();
     if let Some(inside) = inside {
         factors.extend(inside.factors.iter().cloned());
@@ -254,7 +308,7 @@ fn order(outside: &Item, inside: Option<&Item>) -> Order {
     }
     // Squares before products of the same first factor.
     let factors = factors.into_iter().map(|(factor, exponent)| (factor, -exponent)).collect();
-    (moving(outside), usize::from(trig(outside) + inside.map_or(0, trig) > 0), factors)
+    (moving(outside), [trig(outside) + inside.map_or(0, trig) > 0, is_divided], factors)
 }
 
 /// Items in order, the first without a minus if there is one.
@@ -264,7 +318,7 @@ pub(super) fn sort(items: &mut [Item]) {
 }
 
 /// Brings the first positive one to the front.
-fn lead_with_plus<T>(items: &mut [T], is_positive: impl Fn(&T) -> bool) {
+pub(super) fn lead_with_plus<T>(items: &mut [T], is_positive: impl Fn(&T) -> bool) {
     if let Some(first) = items.iter().position(is_positive) {
         items[..=first].rotate_right(1);
     }
@@ -395,7 +449,7 @@ fn best_shared(items: &[Item], prefer: Prefer, angles: &[Angle]) -> Option<Vec<(
             let Some(gain) = gain else { continue };
             let is_preferred = |factor: &(Factor, i32)| match (prefer, factor) {
                 (Prefer::Weight, (Factor::Symbol(rank, _), _)) => *rank <= WEIGHTY,
-                (Prefer::Sines, (Factor::Trig(..), 1)) => true,
+                (Prefer::Sines, (Factor::Trig(..), 1)) | (Prefer::Squares, (Factor::Trig(..), 2)) => true,
                 _ => false,
             };
             let worth = (shared.iter().any(is_preferred), gain);
@@ -416,6 +470,7 @@ fn best_shared(items: &[Item], prefer: Prefer, angles: &[Angle]) -> Option<Vec<(
 fn weight((factor, exponent): &(Factor, i32), prefer: Prefer, angles: &[Angle]) -> usize {
     match factor {
         Factor::Trig(..) if prefer == Prefer::Sines && *exponent == 1 => factor.length(),
+        Factor::Trig(..) if prefer == Prefer::Squares && *exponent == 2 => factor.length() + 1,
         Factor::Trig(angle, _) if !angles.contains(angle) => 2,
         Factor::Symbol(rank, _) if *rank > WEIGHTY => 3,
         _ => 4,

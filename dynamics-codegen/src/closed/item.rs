@@ -84,6 +84,11 @@ impl Item {
         self.factors.iter().any(|(factor, _)| factor.is_trig())
     }
 
+    /// Whether its factors are parameters alone.
+    pub(super) fn is_of_parameters(&self) -> bool {
+        self.factors.iter().all(|(factor, _)| factor.is_parameter())
+    }
+
     /// The product with another factor's power.
     pub(super) fn multiply(&mut self, factor: Factor, exponent: i32) {
         let place = self.factors.iter().position(|(known, _)| *known >= factor);

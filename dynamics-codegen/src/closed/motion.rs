@@ -1,7 +1,7 @@
 //! A polynomial on paper: what belongs to each product of speeds, and what does not move.
 
 use super::Form;
-use super::collect::{place_of_bracket, split_common};
+use super::collect::{lead_with_plus, place_of_bracket, split_common};
 use super::item::{Factor, Item, Writer, split_powers};
 use super::monomial::Monomial;
 use super::polynomial::Polynomial;
@@ -20,7 +20,12 @@ struct Term {
 impl Term {
     /// The product of two sums.
     fn of(items: Vec<Item>, motion: Vec<Item>) -> Self {
-        let (mut outside, inside) = split_common(items);
+        let (mut outside, mut inside) = split_common(items);
+        if !outside.factors.is_empty() && !inside.iter().any(Item::has_sines) {
+            let (least, rest) = split_powers(inside);
+            least.into_iter().for_each(|(factor, exponent)| outside.multiply(factor, exponent));
+            inside = rest;
+        }
         let (mut shared_motion, motion) = split_powers(motion);
         let (number, motion) = split_common(motion);
         shared_motion.extend(number.factors);
@@ -129,10 +134,10 @@ impl Writer<'_> {
     /// differ in a bracket alone share what stands before it.
     fn form_of_motion(&self, mut moving: Vec<(Motion, Polynomial)>) -> Form {
         let at_rest = moving.pop_if(|(motion, _)| motion.is_empty()).map(|(_, polynomial)| polynomial);
-        let moving = match self.single_terms(&moving) {
-            Some(form) => form,
-            None => self.sum_of_groups(groups(moving)),
-        };
+        let as_product = self.single_terms(&moving);
+        let by_groups = self.sum_of_groups(groups(moving));
+        let is_short = |form: &Form| self.length(form) <= self.length(&by_groups);
+        let moving = as_product.filter(is_short).unwrap_or(by_groups);
         // What does not move is subtracted, as V is in T − V, and looks as it does alone.
         let rest = at_rest.map(|rest| self.collected(self.items(&rest.scaled(-Number::ONE))));
         let subtracted = match rest {
@@ -154,21 +159,54 @@ impl Writer<'_> {
         let (motion, items): (Vec<_>, Vec<_>) = terms.into_iter().unzip();
         let is_one_group = items.iter().all(|item| item.factors == items[0].factors);
         let (shared, items) = split_powers(items);
-        if is_one_group || !shared.iter().any(|(factor, _)| factor.is_parameter()) {
-            return None;
-        }
-        let inside = items.into_iter().zip(motion).map(|(mut item, motion)| {
-            for (factor, exponent) in motion {
+        let inside = items.into_iter().zip(&motion).map(|(mut item, motion)| {
+            for (factor, exponent) in motion.iter() {
                 item.multiply(factor.clone(), *exponent);
             }
             item
         });
-        let (mut outside, inside) = split_common(inside.collect());
+        let (mut outside, mut inside) = split_common(inside.collect());
         for (factor, exponent) in shared {
             outside.multiply(factor, exponent);
         }
-        let sum = Form::sum(inside.iter().map(|item| self.item(item)));
-        Some(self.product(outside.coefficient, &outside.factors, vec![(usize::MAX, sum)]))
+        if is_one_group {
+            // `½ k (θ̇₁ + θ̇₂)²`, and `c (2 ẋ₂ − ẋ₁ − ẋ₃)`; others are groups.
+            let is_linear = |motion: &&Motion| matches!(motion[..], [(_, 1)]);
+            let (scale, sum) = match self.factored(&inside) {
+                Some(factored) => factored,
+                None if motion.iter().all(is_linear) => (Number::ONE, self.sum(&mut outside, inside)),
+                None => return None,
+            };
+            outside.coefficient = outside.coefficient * scale;
+            return Some(self.product(outside.coefficient, &outside.factors, vec![(usize::MAX, sum)]));
+        }
+        if !outside.factors.iter().any(|(factor, _)| factor.is_parameter()) {
+            return None;
+        }
+        // Halves of squares stand before all: `½ m (ẋ² + 2 l cos θ ẋ θ̇ + l² θ̇²)`.
+        let half = Number::ratio(1, 2);
+        let is_whole = |value: Number| matches!(value, Number::Exact(exact) if exact.denominator() == 1 && exact.pi_power() == 0);
+        let is_multiple = |item: &Item| is_whole(item.coefficient * Number::integer(2));
+        if inside.iter().any(|item| item.coefficient == half) && inside.iter().all(is_multiple) {
+            outside.coefficient = outside.coefficient * half;
+            for item in &mut inside {
+                item.coefficient = item.coefficient * Number::integer(2);
+            }
+        }
+        let place = place_of_bracket(&outside.factors, &inside);
+        let sum = self.sum(&mut outside, inside);
+        Some(self.product(outside.coefficient, &outside.factors, vec![(place, sum)]))
+    }
+
+    /// The terms of a bracket, one without a minus first if there is one: then there is none before the bracket.
+    fn sum(&self, outside: &mut Item, mut inside: Vec<Item>) -> Form {
+        let is_positive = |item: &Item| !item.coefficient.is_negative();
+        if outside.coefficient.is_negative() && !inside.iter().all(is_positive) {
+            outside.coefficient = -outside.coefficient;
+            inside.iter_mut().for_each(|item| item.coefficient = -item.coefficient);
+        }
+        lead_with_plus(&mut inside, is_positive);
+        Form::sum(inside.iter().map(|item| self.item(item)))
     }
 
     /// The sum of polynomials, each times a sum of products of speeds.

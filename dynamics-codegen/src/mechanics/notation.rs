@@ -16,8 +16,7 @@ pub fn notation(model: &Model<'_>) -> Notation {
     let mut notation = Notation::new();
     for (parameter, name) in model.parameters.iter().zip(field_names(model)) {
         let symbol = notation.add(name, Role::Parameter);
-        let rank = |unit: &[i64; 3]| Some(unit.map(Number::integer)) == parameter.exponents;
-        notation.set_rank(symbol, RANKS.iter().position(rank).map_or(u8::MAX, |rank| rank as u8));
+        notation.set_rank(symbol, rank(parameter));
     }
     let names = JointNames::of(model, &notation);
     for name in &names.coordinates {
@@ -45,11 +44,31 @@ pub fn notation(model: &Model<'_>) -> Notation {
 /// The letters of joint forces, the first that no field has.
 const FORCES: [&str; 3] = ["tau", "Q", "F"];
 
-/// Quantities that stand before others, by their exponents of kg, m and s: moments of inertia, masses, gravity.
-const RANKS: [[i64; 3]; 3] = [[1, 2, 0], [1, 0, 0], [0, 1, -2]];
+/// Quantities that stand before others, by their exponents of kg, m and s: moments of inertia, masses, gravity, springs and
+/// dampers, of joints that turn and of those that slide. With each are the letters that it has where its unit is not known:
+/// of `m·g·l` alone nobody can say what has which.
+const RANKS: [([i64; 3], &str); 7] = [
+    ([1, 2, 0], "IJ"),
+    ([1, 0, 0], "mM"),
+    ([0, 1, -2], "g"),
+    ([1, 2, -2], ""),
+    ([1, 0, -2], "kκ"),
+    ([1, 2, -1], ""),
+    ([1, 0, -1], ""),
+];
 
 /// The place of masses among them.
 pub(super) const RANK_OF_MASSES: u8 = 1;
+
+/// Where a field stands among factors.
+fn rank(parameter: &Parameter) -> u8 {
+    let letter = Name::read(&parameter.name).letter();
+    let is_its = |(unit, letters): &([i64; 3], &str)| match parameter.exponents {
+        Some(exponents) => unit.map(Number::integer) == exponents,
+        None => letter.is_some_and(|letter| letters.contains(letter)),
+    };
+    RANKS.iter().position(is_its).map_or(u8::MAX, |rank| rank as u8)
+}
 
 /// Beginnings of names, and the letters that are written for them.
 type Letters = &'static [(&'static str, &'static str)];
@@ -85,11 +104,13 @@ fn field_names(model: &Model<'_>) -> Vec<Name> {
     chosen
 }
 
-/// The name of a field: of a mass `mc` is m with the index c, of an inertia `ix1` is I with the index x₁.
+/// The name of a field: of a mass `mc` is m with the index c, of an inertia `ix1` is I with the index x₁. What is Greek
+/// stays so: a mass `mu` is μ.
 fn parameter_name(parameter: &Parameter) -> Name {
     let text = parameter.name.as_str();
     let plain = Name::read(text);
-    let Some(exponents) = parameter.exponents else { return plain };
+    let is_greek = plain.letter().is_some_and(|letter| !letter.is_ascii());
+    let Some(exponents) = parameter.exponents.filter(|_| !is_greek) else { return plain };
     let unit = |unit: &[i64; 3]| unit.map(Number::integer) == exponents;
     let letters = LETTERS.iter().find(|(known, _)| unit(known)).map_or(&[][..], |(_, letters)| letters);
     for (letter, written) in letters {

@@ -224,4 +224,33 @@ struct SpringToTheWall<T> { m: T, l: T, k: T, a: T, s: T, g: T }"#,
 #[potential(k * cos(2 * t)^2 * sin(t / 2) + k * cos(t + sin(u)) + k * sin(t) * cos(4 * u)^2)]
 struct Cams<T> { j: T, k: T }"#,
     ),
+    (
+        "ballbot",
+        r#"#[coordinate(phi: angle)]
+#[coordinate(theta: angle)]
+#[kinetic((i_b + m_b * r^2) / 2 * dot(phi)^2 + i_B / 2 * dot(theta)^2)]
+#[kinetic(m_B / 2 * (dot(r * phi + l * sin(theta))^2 + dot(l * cos(theta))^2))]
+#[potential(m_B * g * l * cos(theta))]
+struct Ballbot<T> { m_b: T, m_B: T, i_b: T, i_B: T, r: T, l: T, g: T }"#,
+    ),
+    (
+        "compass_walker",
+        r#"#[coordinate(theta_s: angle)]
+#[coordinate(theta_n: angle)]
+#[kinetic(m / 2 * a^2 * dot(theta_s)^2 + m_h / 2 * (a + b)^2 * dot(theta_s)^2)]
+#[kinetic(m / 2 * dot((a + b) * sin(theta_s) - b * sin(theta_n))^2)]
+#[kinetic(m / 2 * dot((a + b) * cos(theta_s) - b * cos(theta_n))^2)]
+#[potential((m * (2 * a + b) + m_h * (a + b)) * g * cos(theta_s) - m * g * b * cos(theta_n))]
+struct Compass<T> { m: T, m_h: T, a: T, b: T, g: T }"#,
+    ),
+    (
+        "masses_in_a_row",
+        r#"#[coordinate(x1: length)]
+#[coordinate(x2: length)]
+#[coordinate(x3: length)]
+#[kinetic(m / 2 * (dot(x1) + dot(x2))^2)]
+#[kinetic(mu / 2 * dot(x3)^2)]
+#[potential(k / 2 * x1^2 + kappa / 2 * (x2 - x1)^2 + kappa / 2 * (x3 - x2)^2)]
+struct Row<T> { m: T, mu: T, k: T, kappa: T }"#,
+    ),
 ];
