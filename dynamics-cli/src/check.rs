@@ -195,8 +195,7 @@ pub(crate) fn joint_rows(robot: &Robot<'_>) -> Vec<Vec<String>> {
             let first = inputs.iter().position(|speed| info.v.contains(speed));
             row.push(first.map_or("no input".to_owned(), |u| tree::entries("u", &(u..u + info.v.len()))));
         }
-        let kind = if joint.is_bare { "coordinate" } else { joint.kind.name() };
-        row.extend([info.name.clone(), kind.to_owned()]);
+        row.extend([info.name.clone(), joint.kind.name().to_owned()]);
         row.extend(limits(info, joint.kind));
         rows.push(row);
     }
