@@ -15,6 +15,7 @@ use std::path::PathBuf;
 
 use dynamics_codegen::closed::{Notation, Role};
 use dynamics_codegen::mechanics::equations::{Argument, Method};
+use dynamics_codegen::model::Parameter;
 use dynamics_codegen::symbolic::Graph;
 use dynamics_view::page::Page;
 
@@ -71,7 +72,7 @@ The page is one file and asks the network for nothing. It has sections of
 
   the robot                  in three dimensions, with a slider for each coordinate, if it has bodies
   its parameters             masses, inertias, joints, limits, dampers, springs and rotors
-  its equations              M, C, G, T, V and L, with LaTeX to be copied
+  its equations              M, C, G, P, T, V and L, with LaTeX to be copied
   the structure of M         which entries are zero, which constant, and on what the others depend
   costs                      operations of each method, as `count` has them
   a swing                    of the robot left to itself, until a joint that slides comes to its end
@@ -91,6 +92,8 @@ pub(super) struct Subject<'a, 'g> {
     name: String,
     /// What the symbols of its equations are called.
     notation: Notation,
+    /// Its fields, with the units that their uses tell.
+    fields: Vec<Parameter>,
     /// Where the robot stands.
     at: State,
 }
@@ -129,8 +132,8 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let html = {
         let _progress = Progress::of("writing the page");
         let name = shown(&args.title.clone().unwrap_or_else(|| robot_name(&robot)));
-        let notation = equations::notation(&robot, &input)?;
-        let subject = Subject { robot: &robot, graph: &graph, input: &input, name, notation, at };
+        let (notation, fields) = equations::notation(&robot, &input)?;
+        let subject = Subject { robot: &robot, graph: &graph, input: &input, name, notation, fields, at };
         page(&subject, args, start)?.html().map_err(undrawn)?
     };
     // Not before all is there: what the file had stays if nothing comes of it.

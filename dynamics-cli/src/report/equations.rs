@@ -7,7 +7,7 @@ use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::closed::{self, ClosedForms, MOST_DOF_WITH_NAMES, closed_forms};
 use dynamics_codegen::mechanics::equations::Argument;
 use dynamics_codegen::mechanics::letters::{self, Letters};
-use dynamics_codegen::model::{self, Model, Passive};
+use dynamics_codegen::model::{self, Model, Parameter, Passive};
 use dynamics_codegen::spec::RobotSpec;
 use dynamics_codegen::symbolic::{Graph, SymbolId};
 use dynamics_view::page::{Equation, Section, Table};
@@ -59,9 +59,11 @@ fn forms(subject: &Subject<'_, '_>) -> Result<Option<ClosedForms>, Failure> {
     Ok(closed_forms(&with_letters(robot, &graph, subject.input)?, &graph).ok())
 }
 
-/// What the symbols of a robot are called, fields with values among them.
-pub(super) fn notation(robot: &Robot<'_>, input: &Input) -> Result<Notation, Failure> {
-    Ok(closed::notation(&with_letters(robot, &Graph::new(), input)?))
+/// What the symbols of a robot are called, fields with values among them; and these fields.
+pub(super) fn notation(robot: &Robot<'_>, input: &Input) -> Result<(Notation, Vec<Parameter>), Failure> {
+    let graph = Graph::new();
+    let model = with_letters(robot, &graph, input)?;
+    Ok((closed::notation(&model), model.parameters))
 }
 
 /// The robot whose fields have no values.

@@ -1,5 +1,7 @@
 //! The numbers of a robot: masses, joints, limits, and what acts in joints by itself.
 
+use dynamics_codegen::model::Parameter;
+use dynamics_codegen::spec::plain;
 use dynamics_core::Pose;
 use dynamics_view::page::{Section, Table, number};
 use dynamics_view::{Body, Motion};
@@ -17,6 +19,9 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let mut section = Section::new("parameters", "Parameters")
         .text("All numbers are in SI units, angles in radians.")
         .preformatted("The tree of bodies", &tree(subject));
+    if !subject.fields.is_empty() {
+        section = section.table(fields(subject));
+    }
     if !bodies.is_empty() {
         section = of_bodies(section, subject, &bodies);
     }
@@ -43,6 +48,20 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
             &passive,
         )),
     }
+}
+
+/// What the fields are called in the equations, and their values.
+fn fields(subject: &Subject<'_, '_>) -> Table {
+    let row = |field: &Parameter| {
+        let known = subject.robot.spec.known.iter().find(|(name, _)| *name == field.name);
+        let value = known.map_or(String::new(), |(_, value)| plain(*value).replacen('-', "−", 1));
+        let unit = field.unit.clone().filter(|unit| unit != "1").unwrap_or_default();
+        let letter = subject.notation.letter(field.symbol).name.unicode();
+        vec![format!("`{}`", field.name), letter, value, unit]
+    };
+    Table::new("Fields", "llrl")
+        .head(["field", "symbol", "value", "unit"])
+        .rows(subject.fields.iter().map(row))
 }
 
 /// What bodies weigh, and what carries them.

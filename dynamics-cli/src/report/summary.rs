@@ -4,27 +4,33 @@ use std::path::Path;
 
 use dynamics_view::page::Page;
 
-use super::Subject;
+use super::{Subject, stage};
 use crate::check;
 
 /// The page with a sentence or two below its title.
 pub(super) fn put(page: Page, subject: &Subject<'_, '_>) -> Page {
     let robot = subject.robot;
-    let first = format!(
-        "{}: {}, {}.",
-        check::freedom(robot),
-        check::counted(robot.report.links, "link", "links"),
-        check::joints(subject.input, &robot.spec, robot.report.joints)
-    );
+    let has_bodies = !stage::is_empty(robot);
+    let parts = match subject.input.is_of_file() {
+        true => check::counted(robot.report.links, "link", "links"),
+        false => check::counted(robot.report.links, "body", "bodies"),
+    };
+    let joints = check::joints(subject.input, &robot.spec, robot.report.joints);
+    let first = match has_bodies {
+        true => format!("{}: {parts}, {joints}.", check::freedom(robot)),
+        false => format!("{}, described by energies, without bodies.", check::freedom(robot)),
+    };
     let flags = subject.input.flags();
     let beside = if flags.is_empty() { String::new() } else { format!(" with `{}`", flags.trim_start()) };
-    let second = format!(
-        "It weighs {}; {}; {}. Read from `{}`{beside}.",
-        check::mass(robot),
-        check::base(subject.input, robot),
-        check::parameters(robot),
-        file(subject)
-    );
+    let (parameters, file) = (check::parameters(robot), file(subject));
+    let second = match has_bodies {
+        true => format!(
+            "It weighs {}; {}; {parameters}. Read from `{file}`{beside}.",
+            check::mass(robot),
+            check::base(subject.input, robot)
+        ),
+        false => format!("It has {parameters}. Read from `{file}`{beside}."),
+    };
     page.summary(&first).summary(&second)
 }
 

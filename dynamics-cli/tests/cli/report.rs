@@ -309,3 +309,28 @@ fn fields_are_letters_in_equations() {
     );
     assert!(error.contains("--state"), "{error}");
 }
+
+/// What takes energy is in the equations and in the account of the swing, where no joint has it, too.
+#[test]
+fn dissipation_is_told_and_written() {
+    let pendulum = ["report", "../../examples/elastic_pendulum.rs", "--robot", "OnASpring"];
+    let values = ["--set", "m = 500g, k = 40N_per_m, l = 40cm, c = 0.1"];
+    let place = ["--state", r#"{"q": {"r": 0.5}}"#, "--q", "0.2,0.5"];
+    let html = dynamics(&[&pendulum[..], &values, &place].concat()).ok();
+    let equations = text(&html, "equations");
+    assert!(equations.contains("M(q)·a + C(q,v)·v + G(q) + P(q,v) = τ"), "{equations}");
+    assert!(html.contains("P(q,v) = \\begin{bmatrix} 0 \\\\ c \\dot{r} \\end{bmatrix}"), "{equations}");
+    let swing = text(&html, "swing");
+    assert!(
+        swing.contains("Terms of dissipation and the method's error changed the total energy"),
+        "{swing}"
+    );
+    let parameters = text(&html, "parameters");
+    for told in ["D + c / 2 * dot(distance(world, bob))^2", "c c 0.1 kg/s"] {
+        assert!(parameters.contains(told), "{told}: {parameters}");
+    }
+
+    let html = dynamics(&["report", &model("iiwa14"), "--time", "0.01"]).ok();
+    assert!(text(&html, "equations").contains("M(q)·a + C(q,v)·v + G(q) = τ"));
+    assert!(text(&html, "swing").contains("Nothing takes energy from it"));
+}

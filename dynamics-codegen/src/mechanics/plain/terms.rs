@@ -16,8 +16,15 @@ pub(super) fn value<S: Scalar>(term: &Term<S>, tree: &Tree<S>, q: &[S], v: &[S])
     match term {
         Term::Speed(k) => v[*k],
         Term::Rate(inner) => {
-            let moving = Dual::moving(q, &tree.configuration_rate(q, v));
-            at_rest(&inner.map(&mut Dual::constant), &tree.map(Dual::constant), &moving).tangent
+            let rate = tree.configuration_rate(q, v);
+            match &**inner {
+                // Most rates are of these, and need no copy of the tree.
+                Term::Coordinate { q: k, ratio, .. } => *ratio * rate[*k],
+                inner => {
+                    let (inner, dual) = (inner.map(&mut Dual::constant), tree.map(Dual::constant));
+                    at_rest(&inner, &dual, &Dual::moving(q, &rate)).tangent
+                }
+            }
         }
         _ => operated(term, |part| value(part, tree, q, v), tree, q),
     }
