@@ -81,6 +81,15 @@ fn is_square(motion: &[(Factor, i32)]) -> bool {
     matches!(motion, [(_, 2)])
 }
 
+fn minus_signs(form: &Form) -> usize {
+    let own = match form {
+        Form::Negative(_) => 1,
+        Form::Number(value) => usize::from(value.is_negative()),
+        _ => 0,
+    };
+    own + form.parts().into_iter().map(minus_signs).sum::<usize>()
+}
+
 impl Writer<'_> {
     /// A polynomial as a textbook writes it.
     pub(super) fn form(&self, polynomial: &Polynomial) -> Form {
@@ -138,14 +147,19 @@ impl Writer<'_> {
         let by_groups = self.sum_of_groups(groups(moving));
         let is_short = |form: &Form| self.length(form) <= self.length(&by_groups);
         let moving = as_product.filter(is_short).unwrap_or(by_groups);
-        // What does not move is subtracted, as V is in T − V, and looks as it does alone.
-        let rest = at_rest.map(|rest| self.collected(self.items(&rest.scaled(-Number::ONE))));
-        let subtracted = match rest {
-            None => vec![],
-            Some(Form::Sum(terms)) => terms.into_iter().map(Form::negative).collect(),
-            Some(form) => vec![form.negative()],
+        let at_rest = at_rest.map_or(Form::ZERO, |rest| self.at_rest(&rest));
+        Form::sum([moving, at_rest])
+    }
+
+    /// What does not move: subtracted, as V is in T − V, or added, as G is in M q̈ + G, whichever has less signs; either
+    /// looks as it does alone.
+    fn at_rest(&self, rest: &Polynomial) -> Form {
+        let added = self.collected(self.items(rest));
+        let subtracted = match self.collected(self.items(&rest.scaled(-Number::ONE))) {
+            Form::Sum(terms) => Form::sum(terms.into_iter().map(Form::negative)),
+            form => form.negative(),
         };
-        Form::sum(std::iter::once(moving).chain(subtracted))
+        if minus_signs(&added) < minus_signs(&subtracted) { added } else { subtracted }
     }
 
     /// `½ m (ṙ² + r² θ̇²)`: what has one term for each product of speeds, and something of the body in all of them.
