@@ -39,7 +39,7 @@ pub(super) fn write(
         }
         Plan::StraightLine { program, .. } if program.has_lanes() => writeln!(
             text,
-            "    ///\n    /// {operations}; of branches that are alike side by side, where `l` is of each."
+            "    ///\n    /// {operations}; each `l…` has a number for every one of the branches that are alike."
         ),
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
