@@ -1,4 +1,4 @@
-//! Many states at once: [`map`] calls a method in [lanes](crate::lanes), [`par_map`] does so on all cores.
+//! Many states at once: [`map`] calls a method in [lanes](crate::lanes), `par_map`, with feature `rayon`, on all cores.
 //!
 //! States come in slices and results go to one, whatever they are made of; between them stands a closure that is
 //! called with as many states as there are lanes. Each result has the bits that a call with its state alone has.
