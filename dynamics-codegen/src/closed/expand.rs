@@ -4,7 +4,7 @@ use super::Notation;
 use super::monomial::Monomial;
 use super::polynomial::Polynomial;
 use super::ring::{Result, Ring, Swelling, Variable};
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId, Walk};
 
 /// Angles are taken this many times at most; beyond, the multiple is an angle of its own.
 const MULTIPLES: i64 = 8;
@@ -74,22 +74,10 @@ impl<'g> Expansion<'g> {
     }
 
     fn node(&mut self, root: NodeId) -> Result<Polynomial> {
-        let mut stack = vec![root];
-        while let Some(&id) = stack.last() {
-            if self.known.contains(id) {
-                stack.pop();
-                continue;
-            }
-            let (op, waiting) = (self.graph.op(id), stack.len());
-            for operand in op.operands() {
-                if !self.known.contains(operand) {
-                    stack.push(operand);
-                }
-            }
-            if stack.len() == waiting {
-                let polynomial = self.apply(op)?;
-                self.known.insert(id, polynomial);
-            }
+        let mut walk = Walk::to(root);
+        while let Some(id) = walk.next(self.graph, |x| self.known.contains(x)) {
+            let polynomial = self.apply(self.graph.op(id))?;
+            self.known.insert(id, polynomial);
         }
         Ok(self.known[root].clone())
     }

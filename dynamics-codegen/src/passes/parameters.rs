@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Number, Op, Walk, rebuilt};
 
 /// The longest polynomial that is expanded.
 const MOST_TERMS: usize = 40;
@@ -40,25 +40,11 @@ impl<'g> Normaliser<'g> {
         }
     }
 
-    /// Operands before operations, without recursion: graphs may be deep.
     fn node(&mut self, root: NodeId) -> Expr<'g> {
-        let mut stack = vec![root];
-        while let Some(&id) = stack.last() {
-            let waiting = stack.len();
-            let op = self.graph.op(id);
-            if self.rewritten.contains(id) {
-                stack.pop();
-                continue;
-            }
-            for operand in op.operands() {
-                if !self.rewritten.contains(operand) {
-                    stack.push(operand);
-                }
-            }
-            if stack.len() == waiting {
-                let value = self.rewrite(id, op);
-                self.rewritten.insert(id, value);
-            }
+        let mut walk = Walk::to(root);
+        while let Some(id) = walk.next(self.graph, |x| self.rewritten.contains(x)) {
+            let value = self.rewrite(id, self.graph.op(id));
+            self.rewritten.insert(id, value);
         }
         self.rewritten[root]
     }
@@ -70,23 +56,12 @@ impl<'g> Normaliser<'g> {
             self.polynomials.insert(id, polynomial);
             return value;
         }
-        self.applied(id, op)
+        self.applied(id)
     }
 
     /// The operation on rewritten operands.
-    fn applied(&self, id: NodeId, op: Op) -> Expr<'g> {
-        let of = |x: NodeId| self.rewritten[x];
-        match op {
-            Op::Constant(_) | Op::Symbol(_) => Expr::of_node(self.graph, id),
-            Op::Add(a, b) => of(a) + of(b),
-            Op::Sub(a, b) => of(a) - of(b),
-            Op::Mul(a, b) => of(a) * of(b),
-            Op::Scale(k, a) => Expr::Constant(self.graph.number(k)) * of(a),
-            Op::Div(a, b) => of(a).checked_div(of(b)).unwrap_or_else(|| Expr::of_node(self.graph, id)),
-            Op::Sqrt(a) => of(a).sqrt().unwrap_or_else(|| Expr::of_node(self.graph, id)),
-            Op::Sin(a) => of(a).sin(),
-            Op::Cos(a) => of(a).cos(),
-        }
+    fn applied(&self, id: NodeId) -> Expr<'g> {
+        rebuilt(self.graph, id, |operand| self.rewritten[operand])
     }
 
     /// The polynomial of a parameter-only node, whose operands have theirs.
@@ -101,7 +76,7 @@ impl<'g> Normaliser<'g> {
         };
         match expanded.filter(|polynomial| polynomial.len() <= MOST_TERMS) {
             Some(polynomial) => Rc::new(polynomial),
-            None => Rc::new(atom(self.applied(id, op))),
+            None => Rc::new(atom(self.applied(id))),
         }
     }
 

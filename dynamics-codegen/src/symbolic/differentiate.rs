@@ -1,6 +1,6 @@
 //! `∂/∂x` by the chain rule, forward, each node once.
 
-use super::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId};
+use super::{Expr, Graph, NodeId, NodeMap, Number, Op, SymbolId, Walk};
 
 /// The derivatives of expressions with respect to one input, remembered node by node.
 pub struct Differentiator<'g> {
@@ -26,21 +26,11 @@ impl<'g> Differentiator<'g> {
         }
     }
 
-    /// Operands before operations, without recursion: graphs may be deep.
     fn node(&mut self, root: NodeId) -> Expr<'g> {
-        let mut stack = vec![root];
-        while let Some(&id) = stack.last() {
-            let waiting = stack.len();
-            let op = self.graph.op(id);
-            if self.known.contains(id) {
-                stack.pop();
-                continue;
-            }
-            stack.extend(op.operands().filter(|&x| !self.known.contains(x)));
-            if stack.len() == waiting {
-                let derivative = self.rule(id, op);
-                self.known.insert(id, derivative);
-            }
+        let mut walk = Walk::to(root);
+        while let Some(id) = walk.next(self.graph, |x| self.known.contains(x)) {
+            let derivative = self.rule(id, self.graph.op(id));
+            self.known.insert(id, derivative);
         }
         self.known[root]
     }

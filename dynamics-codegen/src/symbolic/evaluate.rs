@@ -1,6 +1,6 @@
 //! The reference interpreter: the value of expressions at numbers.
 
-use super::{Expr, Graph, NodeId, NodeMap, Op, Real, SymbolId};
+use super::{Expr, Graph, NodeId, NodeMap, Op, Real, SymbolId, Walk};
 
 /// Evaluates nodes of a graph at one assignment of its inputs, each node once.
 pub struct Evaluator<'g, F, R = f64> {
@@ -26,25 +26,11 @@ impl<'g, R: Real, F: Fn(SymbolId) -> R> Evaluator<'g, F, R> {
         }
     }
 
-    /// Operands before operations, without recursion: graphs may be deep.
     fn node(&mut self, root: NodeId) -> R {
-        let mut stack = vec![root];
-        while let Some(&id) = stack.last() {
-            let waiting = stack.len();
-            let op = self.graph.op(id);
-            if self.values.contains(id) {
-                stack.pop();
-                continue;
-            }
-            for operand in op.operands() {
-                if !self.values.contains(operand) {
-                    stack.push(operand);
-                }
-            }
-            if stack.len() == waiting {
-                let value = self.apply(op);
-                self.values.insert(id, value);
-            }
+        let mut walk = Walk::to(root);
+        while let Some(id) = walk.next(self.graph, |x| self.values.contains(x)) {
+            let value = self.apply(self.graph.op(id));
+            self.values.insert(id, value);
         }
         self.values[root]
     }

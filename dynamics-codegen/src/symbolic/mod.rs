@@ -10,6 +10,7 @@ mod node_map;
 pub mod number;
 mod real;
 mod substitute;
+mod walk;
 
 pub use differentiate::Differentiator;
 pub use evaluate::Evaluator;
@@ -18,4 +19,5 @@ pub use graph::{Graph, NodeId, Op, Operands, SymbolId};
 pub use node_map::NodeMap;
 pub use number::Number;
 pub use real::Real;
-pub use substitute::Substitution;
+pub use substitute::{Substitution, rebuilt};
+pub use walk::Walk;

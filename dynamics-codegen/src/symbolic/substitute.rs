@@ -1,6 +1,6 @@
 //! Expressions with other things in the place of symbols.
 
-use super::{Expr, Graph, NodeId, NodeMap, Op, SymbolId};
+use super::{Expr, Graph, NodeId, NodeMap, Op, SymbolId, Walk};
 
 /// Puts expressions in the place of symbols, each node once.
 pub struct Substitution<'g, F> {
@@ -26,44 +26,36 @@ impl<'g, F: Fn(SymbolId) -> Option<Expr<'g>>> Substitution<'g, F> {
         }
     }
 
-    /// Operands before operations, without recursion: graphs may be deep.
     fn node(&mut self, root: NodeId) -> Expr<'g> {
-        let mut stack = vec![root];
-        while let Some(&id) = stack.last() {
-            let waiting = stack.len();
-            let op = self.graph.op(id);
-            if self.values.contains(id) {
-                stack.pop();
-                continue;
-            }
-            for operand in op.operands() {
-                if !self.values.contains(operand) {
-                    stack.push(operand);
-                }
-            }
-            if stack.len() == waiting {
-                let value = self.applied(id, op);
-                self.values.insert(id, value);
-            }
+        let mut walk = Walk::to(root);
+        while let Some(id) = walk.next(self.graph, |x| self.values.contains(x)) {
+            let value = self.applied(id);
+            self.values.insert(id, value);
         }
         self.values[root]
     }
 
-    /// The operation on what its operands became.
-    fn applied(&self, id: NodeId, op: Op) -> Expr<'g> {
-        let of = |x: NodeId| self.values[x];
-        let same = || Expr::of_node(self.graph, id);
-        match op {
-            Op::Constant(_) => same(),
-            Op::Symbol(symbol) => (self.value_of)(symbol).unwrap_or_else(same),
-            Op::Add(a, b) => of(a) + of(b),
-            Op::Sub(a, b) => of(a) - of(b),
-            Op::Mul(a, b) => of(a) * of(b),
-            Op::Scale(k, a) => Expr::Constant(self.graph.number(k)) * of(a),
-            Op::Div(a, b) => of(a).checked_div(of(b)).unwrap_or_else(same),
-            Op::Sqrt(a) => of(a).sqrt().unwrap_or_else(same),
-            Op::Sin(a) => of(a).sin(),
-            Op::Cos(a) => of(a).cos(),
+    fn applied(&self, id: NodeId) -> Expr<'g> {
+        match self.graph.op(id) {
+            Op::Symbol(symbol) => (self.value_of)(symbol).unwrap_or_else(|| Expr::of_node(self.graph, id)),
+            _ => rebuilt(self.graph, id, |operand| self.values[operand]),
         }
+    }
+}
+
+/// The operation of a node on what its operands became; a node without operands stays, and one whose operation on them
+/// is not defined.
+pub fn rebuilt<'g>(graph: &'g Graph, id: NodeId, of: impl Fn(NodeId) -> Expr<'g>) -> Expr<'g> {
+    let same = || Expr::of_node(graph, id);
+    match graph.op(id) {
+        Op::Constant(_) | Op::Symbol(_) => same(),
+        Op::Add(a, b) => of(a) + of(b),
+        Op::Sub(a, b) => of(a) - of(b),
+        Op::Mul(a, b) => of(a) * of(b),
+        Op::Scale(k, a) => Expr::Constant(graph.number(k)) * of(a),
+        Op::Div(a, b) => of(a).checked_div(of(b)).unwrap_or_else(same),
+        Op::Sqrt(a) => of(a).sqrt().unwrap_or_else(same),
+        Op::Sin(a) => of(a).sin(),
+        Op::Cos(a) => of(a).cos(),
     }
 }
