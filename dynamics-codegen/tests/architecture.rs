@@ -192,6 +192,29 @@ fn every_file_is_reached() {
     }
 }
 
+/// Where a manifest says what is tested, and Cargo looks for nothing else, nothing else is there.
+#[test]
+fn no_test_is_left_out() {
+    for member in members() {
+        let manifest = read(&format!("{member}/Cargo.toml"));
+        if manifest.contains("\ntest = false\ndoctest = false") {
+            for Source { path, text } in sources(&format!("{member}/src")) {
+                assert!(!text.contains("#[test]") && !text.contains("/ ```"), "{path} is not tested");
+            }
+        }
+        if manifest.contains("autotests = false") {
+            let tests = format!("{member}/tests");
+            let all = read(&format!("{tests}/all.rs"));
+            for Source { path, .. } in sources(&tests) {
+                let name = path.strip_prefix(&format!("{tests}/")).unwrap().strip_suffix(".rs").unwrap();
+                let is_listed = manifest.contains(&format!("[[test]]\nname = \"{name}\""));
+                let is_part = name.contains('/') || all.contains(&format!("\nmod {name};"));
+                assert!(is_listed || is_part, "{path} is not run");
+            }
+        }
+    }
+}
+
 #[test]
 fn unsafe_code_is_forbidden_everywhere() {
     let forbids = |manifest: &str| manifest.contains("unsafe_code = \"forbid\"");

@@ -1,11 +1,9 @@
 //! The adaptive method: closed forms, orders, tolerances, and everything it refuses.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::elliptic::{jacobi, quarter_period};
-use common::free_box::FreeBox;
-use common::{DoublePendulum, G, Pendulum, Spinner};
+use crate::common::elliptic::{jacobi, quarter_period};
+use crate::common::free_box::FreeBox;
+use crate::common::{DoublePendulum, G, Pendulum, Spinner};
 use dynamics_core::nalgebra::{Vector3, Vector6};
 use dynamics_core::prelude::*;
 

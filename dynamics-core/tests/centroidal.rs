@@ -1,9 +1,7 @@
 //! The centre of mass and the momentum about it: what is provided, and the laws of momentum.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::FreeBox;
+use crate::common::free_box::FreeBox;
 use dynamics_core::nalgebra::Vector3;
 use dynamics_core::prelude::*;
 

@@ -1,17 +1,13 @@
 //! Control blocks in closed loops, beside what their theorems say.
 #![cfg(feature = "derive")]
 
-mod common;
-#[path = "common/leaper.rs"]
-mod robot;
-
-use common::{random_numbers, random_vector};
+use crate::common::leaper::{Leaper, NQ, NU, NV, NX, leaper};
+use crate::common::{random_numbers, random_vector};
 use dynamics_core::control::{
     AllParameters, BaseParameters, ComputedTorque, FilteredDerivative, GravityCompensation, Integral,
     SlotineLi, StateFeedback, saturated, slotine_li_regressor,
 };
 use dynamics_core::prelude::*;
-use robot::{Leaper, NQ, NU, NV, NX, leaper};
 
 /// Two links that pitch on a turning column, with dampers, friction, and a payload.
 #[derive(Clone, Copy, Debug, Dynamics)]

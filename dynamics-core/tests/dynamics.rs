@@ -1,10 +1,8 @@
 //! The provided methods of `Dynamics`, and its errors.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::FreeBox;
-use common::{DoublePendulum, G, Pendulum, Spinner};
+use crate::common::free_box::FreeBox;
+use crate::common::{DoublePendulum, G, Pendulum, Spinner};
 use dynamics_core::prelude::*;
 
 #[test]

@@ -1,10 +1,8 @@
 //! Events: when they happen by closed forms, in which order, and each once.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::elliptic::quarter_period;
-use common::{Bob, DoublePendulum, G, Pendulum};
+use crate::common::elliptic::quarter_period;
+use crate::common::{Bob, DoublePendulum, G, Pendulum};
 use dynamics_core::__private::{columns, vector};
 use dynamics_core::prelude::*;
 use dynamics_core::simulate::{

@@ -1,10 +1,8 @@
 //! Methods along a flow whose size Rust does not know take the steps that a robot's simulation takes.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::FreeBox;
-use common::{DoublePendulum, Spinner};
+use crate::common::free_box::FreeBox;
+use crate::common::{DoublePendulum, Spinner};
 use dynamics_core::prelude::*;
 use dynamics_core::simulate::{Explicit, Flow, March};
 

@@ -1,10 +1,8 @@
 //! Frames as type arguments: the calls a user writes, and what the Jacobians mean.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::{Corner, FreeBox};
-use common::{Bob, DoublePendulum, Pendulum, Tool0};
+use crate::common::free_box::{Corner, FreeBox};
+use crate::common::{Bob, DoublePendulum, Pendulum, Tool0};
 use dynamics_core::prelude::*;
 
 #[test]
@@ -131,7 +129,7 @@ fn external_forces_of_several_bodies_add_up() {
         }
     }
     let (robot, q) = (DoublePendulum, SVector::from([0.7, -1.1]));
-    let lift = SVector::from([0.0, 0.0, common::G, 0.0, 0.0, 0.0]);
+    let lift = SVector::from([0.0, 0.0, crate::common::G, 0.0, 0.0, 0.0]);
     let external: SVector<f64, 2> =
         robot.world_external_forces::<Elbow>(&q, &lift) + robot.world_external_forces::<Tool0>(&q, &lift);
     let o = SVector::zeros();
@@ -139,7 +137,8 @@ fn external_forces_of_several_bodies_add_up() {
     assert!(robot.forward_dynamics(&q, &o, &external).amax() < 1e-14);
 
     // In the frame's own axes the same force has other components.
-    let turned = robot.pose::<Tool0>(&q).inverse().transform_vector(&SVector::from([0.0, 0.0, common::G]));
+    let turned =
+        robot.pose::<Tool0>(&q).inverse().transform_vector(&SVector::from([0.0, 0.0, crate::common::G]));
     let in_frame = SVector::from([turned.x, turned.y, turned.z, 0.0, 0.0, 0.0]);
     let (own, world) =
         (robot.external_forces::<Tool0>(&q, &in_frame), robot.world_external_forces::<Tool0>(&q, &lift));

@@ -1,9 +1,7 @@
 //! The linear model against central differences of the nonlinear one.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{DoublePendulum, Spinner};
+use crate::common::{DoublePendulum, Spinner};
 use dynamics_core::nalgebra::SVector as Vector;
 use dynamics_core::prelude::*;
 

@@ -1,12 +1,10 @@
 //! Ball and free joints: exponentials and logarithms against nalgebra's, matrix series and dual numbers.
 #![cfg(feature = "std")]
 
-mod common;
-
 use std::f64::consts::PI;
 
-use common::dual::{Dual, moving, resting, tangent};
-use common::{random_numbers, random_vector};
+use crate::common::dual::{Dual, moving, resting, tangent};
+use crate::common::{random_numbers, random_vector};
 use dynamics_core::__private::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, columns, difference_ball, difference_free, free_rate,
     free_rate_transposed, free_tangent_rate, integrate_ball, integrate_free, put_on_diagonal, vector,

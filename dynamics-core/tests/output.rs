@@ -1,15 +1,11 @@
 //! Outputs and their derivatives, beside dual numbers that go through the nonlinear equations.
 #![cfg(feature = "derive")]
 
-mod common;
-#[path = "common/leaper.rs"]
-mod robot;
-
-use common::dual::Dual;
-use common::{random_numbers, random_vector};
+use crate::common::dual::Dual;
+use crate::common::leaper::{Foot, Leaper, NQ, NU, NV, NX, Thigh, leaper};
+use crate::common::{random_numbers, random_vector};
 use dynamics_core::output::OperatingPoint;
 use dynamics_core::prelude::*;
-use robot::{Foot, Leaper, NQ, NU, NV, NX, Thigh, leaper};
 
 /// Both roads are exact; this is their rounding, relative to numbers up to a hundred.
 const ROUNDING: f64 = 1e-11;

@@ -1,8 +1,6 @@
 //! The recursion over a table of links: against point masses, dual numbers and closed forms.
 #![cfg(feature = "std")]
 
-mod common;
-
 #[path = "recursion/closed_forms.rs"]
 mod closed_forms;
 #[path = "recursion/lanes.rs"]
@@ -12,7 +10,7 @@ mod laws;
 #[path = "recursion/robots.rs"]
 mod robots;
 
-use common::{random_numbers, random_vector};
+use crate::common::{random_numbers, random_vector};
 use dynamics_core::__private::recursion::{Joint, Tree};
 use dynamics_core::prelude::*;
 

@@ -1,9 +1,7 @@
 //! The equation of motion as a linear function of the parameters, of a pendulum written by hand.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{G, Pendulum};
+use crate::common::{G, Pendulum};
 use dynamics_core::__private::{columns, vector};
 use dynamics_core::prelude::*;
 

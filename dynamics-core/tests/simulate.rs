@@ -1,9 +1,7 @@
 //! Order, energy and errors of the integrators.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::{DoublePendulum, Pendulum, Spinner};
+use crate::common::{DoublePendulum, Pendulum, Spinner};
 use dynamics_core::prelude::*;
 
 const Q0: [f64; 2] = [1.2, -0.7];

@@ -119,5 +119,5 @@ fn nothing_to_solve_is_no_error() {
     factors(&[[1.0; 7]; 7], const { &EliminationTree::CHAIN }).minus_solve(&mut no_columns);
     let mut empty: [[f64; 0]; 3] = [[]; 3];
     factors(&[], const { &EliminationTree::CHAIN }).minus_solve(&mut empty);
-    assert_eq!(empty, [[]; 3]);
+    assert_eq!(empty, [[0.0; 0]; 3]);
 }

@@ -1,11 +1,9 @@
 //! A box tossed into the air, by Newton's and Euler's laws: a free joint under simulation.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::Spinner;
-use common::elliptic::quarter_period;
-use common::free_box::FreeBox;
+use crate::common::Spinner;
+use crate::common::elliptic::quarter_period;
+use crate::common::free_box::FreeBox;
 use dynamics_core::nalgebra::{Vector3, Vector6};
 use dynamics_core::prelude::*;
 

@@ -1,10 +1,8 @@
 //! Recorded motions, what is between their states, and the accounts of their energy.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::FreeBox;
-use common::{DoublePendulum, Pendulum};
+use crate::common::free_box::FreeBox;
+use crate::common::{DoublePendulum, Pendulum};
 use dynamics_core::nalgebra::Vector6;
 use dynamics_core::prelude::*;
 use dynamics_core::simulate::{EnergyMonitor, Segment, Trajectory};

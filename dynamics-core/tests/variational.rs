@@ -1,10 +1,8 @@
 //! The variational integrator: order, energy, momentum, reversal, and what it does not solve.
 #![cfg(feature = "std")]
 
-mod common;
-
-use common::free_box::FreeBox;
-use common::{DoublePendulum, G, Pendulum, Spinner, random_numbers, random_vector};
+use crate::common::free_box::FreeBox;
+use crate::common::{DoublePendulum, G, Pendulum, Spinner, random_numbers, random_vector};
 use dynamics_core::nalgebra::Vector3;
 use dynamics_core::prelude::*;
 use dynamics_core::simulate::MomentumMonitor;

@@ -4,6 +4,8 @@
 pub mod dual;
 pub mod elliptic;
 pub mod free_box;
+#[cfg(feature = "derive")]
+pub mod leaper;
 
 use dynamics_core::__private::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, columns, difference_ball, integrate_ball, vector,

@@ -4,9 +4,9 @@ use dynamics_core::__private::recursion::{Drive, Friction, Joint, Link, Passive,
 use dynamics_core::nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use dynamics_core::prelude::*;
 
+use super::robots::{AXES, AddPoint, INERT, bare, by_rows, drive, massless, rows};
+use super::{TOLERANCE, close, close_numbers};
 use crate::common::{DoublePendulum, G, Pendulum, Tool0};
-use crate::robots::{AXES, AddPoint, INERT, bare, by_rows, drive, massless, rows};
-use crate::{TOLERANCE, close, close_numbers};
 
 /// z along the world's x, −y downwards.
 const HANGING: [[f64; 3]; 3] = [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];

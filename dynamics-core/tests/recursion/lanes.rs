@@ -3,9 +3,9 @@
 use dynamics_core::__private::recursion::{Drive, Joint, Tree};
 use dynamics_core::prelude::*;
 
+use super::robots::{Robot, Shape};
+use super::{TOLERANCE, close};
 use crate::common::{random_numbers, random_vector};
-use crate::robots::{Robot, Shape};
-use crate::{TOLERANCE, close};
 
 /// A chain or a tree of joints that move as their coordinates do.
 fn driven_directly<const N: usize>(joints: &str, shape: Shape, seed: u64) -> Tree<f64, N, N, N> {

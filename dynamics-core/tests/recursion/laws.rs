@@ -4,10 +4,10 @@ use dynamics_core::__private::recursion::Passive;
 use dynamics_core::nalgebra::{Rotation3, Vector3};
 use dynamics_core::prelude::*;
 
+use super::robots::{Robot, Shape, lifted, rows};
+use super::{TOLERANCE, TOLERANCE_OF_SOLUTIONS, close, close_numbers, with_stack};
 use crate::common::dual::{Dual, moving, resting, tangent};
 use crate::common::{random_numbers, random_vector};
-use crate::robots::{Robot, Shape, lifted, rows};
-use crate::{TOLERANCE, TOLERANCE_OF_SOLUTIONS, close, close_numbers, with_stack};
 
 type State<const NQ: usize, const NV: usize> = (SVector<f64, NQ>, SVector<f64, NV>, SVector<f64, NV>);
 
