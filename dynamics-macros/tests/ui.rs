@@ -1,6 +1,6 @@
 //! The mistakes as users see them: each file of `ui/` does not compile, and says exactly what its `.stderr` says.
 //!
-//! `TRYBUILD=overwrite cargo test -p dynamics-tests --test ui` writes the texts anew.
+//! `TRYBUILD=overwrite cargo test -p dynamics-macros --test ui` writes the texts anew.
 #![allow(clippy::unwrap_used, reason = "a test may fail")]
 
 use std::path::Path;
