@@ -393,26 +393,27 @@ fn compare<T: Float>(entry: &Entry, robot: &dyn Robot<T>, how: &[&str]) -> usize
     compared
 }
 
+/// How many results of all robots are compared: most of the time a compiler of C is at work, so on all cores.
+fn of_each(compared: impl Fn(&Entry) -> usize + Sync) -> usize {
+    zoo::on_all_cores(|entry| compared(&entry)).into_iter().sum()
+}
+
 #[test]
 fn the_zoo_in_float_computes_what_rust_computes() {
-    let mut compared = 0;
-    for entry in zoo::all() {
-        if let Some(Forms { robot, .. }) = &entry.single {
-            compared += compare(&entry, &**robot, &["-O0"]);
-        }
-    }
+    let compared = of_each(|entry| match &entry.single {
+        Some(Forms { robot, .. }) => compare(entry, &**robot, &["-O0"]),
+        None => 0,
+    });
     assert!(compared > 2_000, "{compared} results compared");
 }
 
 /// Those too large for one function in the tests' debug builds are there in doubles alone.
 #[test]
 fn robots_of_doubles_do_so_too() {
-    let mut compared = 0;
-    for entry in zoo::all().iter().filter(|entry| entry.single.is_none()) {
-        if let Some(Forms { robot, .. }) = &entry.double {
-            compared += compare(entry, &**robot, &["-O0"]);
-        }
-    }
+    let compared = of_each(|entry| match (&entry.single, &entry.double) {
+        (None, Some(Forms { robot, .. })) => compare(entry, &**robot, &["-O0"]),
+        _ => 0,
+    });
     assert!(compared > 100, "{compared} results compared");
 }
 
@@ -450,9 +451,9 @@ const PROGRAMS: &[(&str, Method)] = &[
 /// With the sines of the library, by the hook for them: the interpreter has these.
 #[test]
 fn the_zoo_in_double_computes_the_bits_of_the_interpreter() {
-    let mut compared = 0;
-    for entry in zoo::all() {
-        let Some(Forms { robot, .. }) = &entry.double else { continue };
+    let compared = of_each(|entry| {
+        let mut compared = 0;
+        let Some(Forms { robot, .. }) = &entry.double else { return 0 };
         let frames = frames(&**robot);
         let how = ["-O0", "-DBOT_HOOKS=\"library.h\""];
         std::fs::write(
@@ -461,8 +462,8 @@ fn the_zoo_in_double_computes_the_bits_of_the_interpreter() {
              #define BOT_SIN_COS(x, sine, cosine) library((x), (sine), (cosine))\n",
         )
         .unwrap();
-        let found = run(&entry, &frames, &narrowed::<f64>(&entry), &how);
-        travel(&entry, |roads| {
+        let found = run(entry, &frames, &narrowed::<f64>(entry), &how);
+        travel(entry, |roads| {
             let interpreter = roads.interpreter_for(RunTime::None);
             for (found, state) in found.iter().zip(entry.states(STATES)) {
                 for (name, method) in PROGRAMS {
@@ -480,7 +481,8 @@ fn the_zoo_in_double_computes_the_bits_of_the_interpreter() {
                 }
             }
         });
-    }
+        compared
+    });
     assert!(compared > 10_000, "{compared} numbers compared");
 }
 
@@ -557,14 +559,14 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
         &linker,
         &script,
     ];
-    let mut compared = 0;
-    for entry in zoo::all() {
-        let Some(Forms { robot, .. }) = &entry.single else { continue };
-        let (states, frames) = (narrowed::<f32>(&entry), frames(&**robot));
-        let here = run(&entry, &frames, &states, &["-O0"]);
+    let compared = of_each(|entry| {
+        let mut compared = 0;
+        let Some(Forms { robot, .. }) = &entry.single else { return 0 };
+        let (states, frames) = (narrowed::<f32>(entry), frames(&**robot));
+        let here = run(entry, &frames, &states, &["-O0"]);
         let folder = folder(&format!("{}_board", entry.name));
-        write(&entry, &frames, &states, &folder);
-        compile(&entry, &folder, "clang", &for_board);
+        write(entry, &frames, &states, &folder);
+        compile(entry, &folder, "clang", &for_board);
         let mut emulator = Command::new("qemu-system-arm");
         emulator.args([
             "-machine",
@@ -579,7 +581,7 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
         emulator.args(["-serial", "none", "-chardev", "stdio,id=console", "-semihosting-config"]);
         emulator.args(["enable=on,target=native,chardev=console", "-kernel"]).arg(folder.join("run"));
         emulator.stdin(std::process::Stdio::null());
-        let there: Vec<Results<f32>> = results(&entry, &mut emulator);
+        let there: Vec<Results<f32>> = results(entry, &mut emulator);
         for (here, there) in here.iter().zip(&there) {
             for (name, here) in here {
                 let bits = |values: &[f32]| values.iter().map(|x| (x + 0.0).to_bits()).collect::<Vec<_>>();
@@ -588,6 +590,7 @@ fn a_cortex_m4f_computes_the_bits_of_the_host() {
             }
         }
         assert_eq!(here.len(), there.len(), "{}", entry.name);
-    }
+        compared
+    });
     assert!(compared > 2_000, "{compared} results compared");
 }

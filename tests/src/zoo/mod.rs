@@ -8,6 +8,10 @@ pub mod joints;
 pub mod lagrangian;
 pub mod textbook;
 
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
+
 use dynamics_core::Costs;
 
 use crate::{Dual, Forms, Space, State};
@@ -59,6 +63,30 @@ pub fn in_double() -> impl Iterator<Item = (Entry, Forms<f64>)> {
         let forms = entry.double.take()?;
         Some((entry, forms))
     })
+}
+
+/// What `ask` answers of each robot, in the order of the zoo: asked on all cores, the largest robots first.
+///
+/// For what takes long. A compiled robot stays on its thread, so every thread has a zoo of its own.
+pub fn on_all_cores<R: Send>(ask: impl Fn(Entry) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let some = || {
+        let (mut robots, mut answers) = (all().into_iter().map(Some).collect::<Vec<_>>(), vec![]);
+        while let Some(k) = robots.len().checked_sub(1 + next.fetch_add(1, Ordering::Relaxed)) {
+            answers.extend(robots[k].take().map(|robot| (k, ask(robot))));
+        }
+        answers
+    };
+    let mut answers: Vec<(usize, R)> = thread::scope(|scope| {
+        let cores = thread::available_parallelism().map_or(1, usize::from);
+        let threads: Vec<_> = (0..cores).map(|_| scope.spawn(some)).collect();
+        threads
+            .into_iter()
+            .flat_map(|thread| thread.join().unwrap_or_else(|panic| resume_unwind(panic)))
+            .collect()
+    });
+    answers.sort_by_key(|(k, _)| *k);
+    answers.into_iter().map(|(_, answer)| answer).collect()
 }
 
 /// Declares a robot in a module of its own: derives it, keeps its text, gives it values, and enters it.
