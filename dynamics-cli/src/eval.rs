@@ -44,7 +44,7 @@ Output:
   C *                        C(q,v), with Ṁ = C + Cᵀ
   G *                        G(q), of gravity
   passive *                  the forces of dampers, friction and springs
-  h *                        C·v + G + passive
+  h *                        C·v + G and the passive forces
   tau *                      M·a + h, at the `a` of the state
   a *                        M⁻¹·(tau − h), at the `tau` of the state
   kinetic_energy *, potential_energy *, elastic_energy *

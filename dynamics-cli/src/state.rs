@@ -90,45 +90,57 @@ pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<Sta
     let Entries(entries) =
         serde_json::from_str::<Entries<Vector>>(&text).map_err(|error| not_json(&error, name, &text))?;
     let mut state = State::neutral(robot);
-    let mut seen: Vec<&str> = vec![];
+    let (mut seen, mut wrong): (Vec<&str>, Vec<Problem>) = (vec![], vec![]);
     for (key, vector) in &entries {
         let (slot, names) = match key.as_str() {
             "q" => (&mut state.q, &robot.coordinates.q),
             "v" => (&mut state.v, &robot.coordinates.v),
             "a" => (&mut state.a, &robot.coordinates.v),
             "tau" => (&mut state.tau, &robot.coordinates.v),
-            _ => return Err(unknown_key(key)),
+            _ => {
+                wrong.push(unknown_key(key));
+                continue;
+            }
         };
         if seen.contains(&key.as_str()) {
-            return Err(Problem::new(format!("the state has `{key}` twice"))
-                .help("keep one of the two")
-                .into());
+            wrong.push(Problem::new(format!("the state has `{key}` twice")).help("keep one of the two"));
+            continue;
         }
         seen.push(key);
-        let no_number = |found: &Value, name: &str| {
-            let found = shown(&found.to_string());
-            let problem = Problem::new(format!("`{key}` of `{}` is {found}, and no number", shown(name)));
-            Failure::from(problem.help(format!("give {}", wanted(names))))
+        let number = |found: &Value, name: &str, wrong: &mut Vec<Problem>| {
+            let number = found.as_f64();
+            if number.is_none() {
+                let found = shown(&found.to_string());
+                let title = format!("`{key}` of `{}` is {found}, and no number", shown(name));
+                wrong.push(Problem::new(title).help(format!("give {}", wanted(names))));
+            }
+            number
         };
         match vector {
             Vector::All(items) => {
-                let number = |(k, item): (usize, &Value)| {
+                let mut numbers = vec![];
+                for (k, item) in items.iter().enumerate() {
                     let name = names.get(k).map_or("one too many", String::as_str);
-                    item.as_f64().ok_or_else(|| no_number(item, name))
-                };
-                let numbers: Result<Vec<f64>, Failure> = items.iter().enumerate().map(number).collect();
-                *slot = checked(key, numbers?, names)?;
+                    numbers.extend(number(item, name, &mut wrong));
+                }
+                if numbers.len() == items.len() {
+                    set_all(key, slot, numbers, names, &mut wrong);
+                }
             }
             Vector::Some(entries) => {
                 for (name, value) in entries {
-                    let number = value.as_f64().ok_or_else(|| no_number(value, name))?;
-                    set(key, slot, name, number, names)?;
+                    if let Some(number) = number(value, name, &mut wrong) {
+                        set(key, slot, name, number, names, &mut wrong);
+                    }
                 }
             }
         }
     }
-    check_quaternions(robot, &state.q)?;
-    Ok(state)
+    if wrong.is_empty() {
+        check_quaternions(robot, &state.q)?;
+        return Ok(state);
+    }
+    Err(Failure::Wrong(wrong))
 }
 
 /// Reads a vector as on the command line: `0.1,-0.2`, in brackets or not, or `hinge=-0.2` of some entries.
@@ -140,35 +152,40 @@ pub(crate) fn override_by(
 ) -> Result<(), Failure> {
     let Some(argument) = argument else { return Ok(()) };
     let key = format!("--{key}");
-    let number = |word: &str| {
-        word.trim().parse::<f64>().map_err(|_| {
+    let mut wrong = vec![];
+    let number = |word: &str, wrong: &mut Vec<Problem>| {
+        let number = word.trim().parse::<f64>().ok();
+        if number.is_none() {
             let problem = Problem::new(format!("`{}` in `{key}` is no number", shown(word.trim())));
             let form = "give {}, with commas between them; or some by their names, as in `{}=0.1`";
             let first = names.first().map_or("hinge", String::as_str);
-            Failure::from(problem.help(form.replacen("{}", &wanted(names), 1).replacen("{}", first, 1)))
-        })
+            wrong.push(problem.help(form.replacen("{}", &wanted(names), 1).replacen("{}", first, 1)));
+        }
+        number
     };
     let inner = argument.trim().trim_start_matches('[').trim_end_matches(']');
-    if !inner.contains('=') {
-        let numbers: Result<Vec<f64>, Failure> = inner.split(',').map(number).collect();
-        *vector = checked(&key, numbers?, names)?;
-        return Ok(());
+    if inner.contains('=') {
+        for word in inner.split(',') {
+            // Names may have the sign, numbers have not.
+            let (name, value) = word.rsplit_once('=').unwrap_or(("", word));
+            if let Some(number) = number(value, &mut wrong) {
+                set(&key, vector, name.trim(), number, names, &mut wrong);
+            }
+        }
+    } else {
+        let mut numbers = vec![];
+        for word in inner.split(',') {
+            numbers.extend(number(word, &mut wrong));
+        }
+        if wrong.is_empty() {
+            set_all(&key, vector, numbers, names, &mut wrong);
+        }
     }
-    for word in inner.split(',') {
-        // Names may have the sign, numbers have not.
-        let (name, value) = word.rsplit_once('=').unwrap_or(("", word));
-        set(&key, vector, name.trim(), number(value)?, names)?;
-    }
-    Ok(())
+    if wrong.is_empty() { Ok(()) } else { Err(Failure::Wrong(wrong)) }
 }
 
 /// Sets the entry of a name.
-fn set(key: &str, vector: &mut [f64], name: &str, value: f64, names: &[String]) -> Result<(), Failure> {
-    if !value.is_finite() {
-        return Err(Problem::new(format!("`{key}` of `{}` is {value}", shown(name)))
-            .help("give a finite number")
-            .into());
-    }
+fn set(key: &str, vector: &mut [f64], name: &str, value: f64, names: &[String], wrong: &mut Vec<Problem>) {
     let slot = names.iter().position(|known| known == name).and_then(|at| vector.get_mut(at));
     let Some(slot) = slot else {
         let problem = Problem::new(format!("`{key}` has no entry `{}`", shown(name)));
@@ -176,24 +193,31 @@ fn set(key: &str, vector: &mut [f64], name: &str, value: f64, names: &[String]) 
             Some(meant) => format!("did you mean `{meant}`?"),
             None => format!("give {}", wanted(names)),
         };
-        return Err(problem.help(help).into());
+        wrong.push(problem.help(help));
+        return;
     };
-    *slot = value;
-    Ok(())
+    if value.is_finite() {
+        *slot = value;
+    } else {
+        let problem = Problem::new(format!("`{key}` of `{}` is {value}", shown(name)));
+        wrong.push(problem.help("give a finite number"));
+    }
 }
 
-/// As many numbers as there are names, and all finite.
-fn checked(key: &str, numbers: Vec<f64>, names: &[String]) -> Result<Vec<f64>, Failure> {
+/// Sets all entries: as many numbers as there are names, and all finite.
+fn set_all(key: &str, vector: &mut Vec<f64>, numbers: Vec<f64>, names: &[String], wrong: &mut Vec<Problem>) {
     let (count, needed) = (numbers.len(), names.len());
-    let problem = if count != needed {
+    let mut is_wrong =
+        |title: String| wrong.push(Problem::new(title).help(format!("give {}", wanted(names))));
+    if count != needed {
         let s = if count == 1 { "" } else { "s" };
-        Problem::new(format!("`{key}` has {count} number{s}, and needs {needed}"))
-    } else if let Some((number, name)) = numbers.iter().zip(names).find(|(number, _)| !number.is_finite()) {
-        Problem::new(format!("`{key}` of `{name}` is {number}"))
-    } else {
-        return Ok(numbers);
-    };
-    Err(problem.help(format!("give {}", wanted(names))).into())
+        is_wrong(format!("`{key}` has {count} number{s}, and needs {needed}"));
+        return;
+    }
+    for (number, name) in numbers.iter().zip(names).filter(|(number, _)| !number.is_finite()) {
+        is_wrong(format!("`{key}` of `{name}` is {number}"));
+    }
+    *vector = numbers;
 }
 
 /// How far the square of a quaternion's length may be from 1: that of the run time.
@@ -201,6 +225,7 @@ const UNIT: f64 = 1e-6;
 
 /// Quaternions of unit length, as the run time's `check_configuration` has them.
 pub(crate) fn check_quaternions(robot: &Robot<'_>, q: &[f64]) -> Result<(), Failure> {
+    let mut wrong = vec![];
     for at in robot.tree.quaternions() {
         let quaternion = &q[at..at + 4];
         let norm = quaternion.iter().fold(0.0, |norm: f64, x| norm.hypot(*x));
@@ -217,18 +242,18 @@ pub(crate) fn check_quaternions(robot: &Robot<'_>, q: &[f64]) -> Result<(), Fail
             true => format!("divided by its norm it is {}", unit.join(", ")),
             false => "no rotation is 0, 0, 0, 1".to_owned(),
         };
-        return Err(Problem::new(title).help(help).into());
+        wrong.push(Problem::new(title).help(help));
     }
-    Ok(())
+    if wrong.is_empty() { Ok(()) } else { Err(Failure::Wrong(wrong)) }
 }
 
-fn unknown_key(key: &str) -> Failure {
+fn unknown_key(key: &str) -> Problem {
     let problem = Problem::new(format!("the state has an unknown key `{}`", shown(key)));
     let help = match did_you_mean(key, KEYS) {
         Some(meant) => format!("did you mean `{meant}`?"),
         None => "give `q`, `v`, `a` or `tau`".to_owned(),
     };
-    problem.help(help).into()
+    problem.help(help)
 }
 
 /// As in "2 finite numbers, of slider, hinge".

@@ -62,7 +62,7 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
     /// The gravity forces `G(q) = ∂V/∂q`, NV, on the left-hand side: the joint forces that hold the robot still.
     fn gravity_forces(&self, q: &SVector<T, NQ>) -> SVector<T, NV>;
 
-    /// The passive joint forces of damping, friction and springs, NV, on the left-hand side.
+    /// The passive joint forces `P(q,v)` of damping, friction and springs, NV, on the left-hand side.
     ///
     /// `damping·v + friction·v/√(v² + friction_speed²) + stiffness·(q − rest)`, for each joint that has them, and `∂D/∂v` of
     /// the robot's own `#[dissipation(…)]`s; zero as provided. Armature is no force, but part of M.
@@ -72,10 +72,10 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
         SVector::zeros()
     }
 
-    /// The bias forces `h(q,v) = C·v + G` + passive joint forces, NV.
+    /// The bias forces `h(q,v) = C·v + G + P`, NV, with the [`passive_forces`](Self::passive_forces) P.
     fn bias_forces(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>) -> SVector<T, NV>;
 
-    /// The joint forces `τ = M·a + C·v + G` + passive joint forces, NV.
+    /// The joint forces `τ = M·a + C·v + G + P`, NV, with the [`passive_forces`](Self::passive_forces) P.
     fn inverse_dynamics(&self, q: &SVector<T, NQ>, v: &SVector<T, NV>, a: &SVector<T, NV>) -> SVector<T, NV>;
 
     /// The accelerations `a = M(q)⁻¹·(τ − h(q,v))`, NV.
@@ -95,8 +95,8 @@ pub trait Dynamics<T: Scalar, const NQ: usize, const NV: usize> {
 
     /// The elastic energy of the springs in joints, `Σ ½ stiffness·(q − rest)²`, in J; zero as provided.
     ///
-    /// It is no part of `V(q)`, so that `G = ∂V/∂q`; its derivative is the springs' share of
-    /// [`passive_forces`](Self::passive_forces).
+    /// It is no part of `V(q)`, so that `G = ∂V/∂q` is gravity's; its derivative is the springs' share of
+    /// [`passive_forces`](Self::passive_forces). A spring that belongs in V is a `#[potential(k / 2 * (theta - rest)^2)]`.
     #[inline]
     fn elastic_energy(&self, q: &SVector<T, NQ>) -> T {
         let _ = q;

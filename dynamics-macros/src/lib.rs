@@ -153,7 +153,8 @@ use proc_macro::TokenStream;
 /// another follower, in no circle.
 ///
 /// What acts in it by itself, at the coordinate p and the speed s of the joint; on the left-hand side of the equations,
-/// as part of `bias_forces` and `inverse_dynamics`:
+/// as part of `bias_forces` and `inverse_dynamics`. The energy of its spring is `elastic_energy`, and no part of `V`; a spring
+/// that is to be in `V` is a `#[potential(k / 2 * (theta - rest)^2)]`:
 ///
 /// | key | force | unit | default |
 /// |---|---|---|---|

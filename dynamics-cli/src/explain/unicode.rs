@@ -151,7 +151,7 @@ fn side(side: &Side, notation: &Notation) -> Vec<String> {
 }
 
 /// Sides on one line, or each on its own, broken before signs that are in no bracket; a term that is too long by itself is
-/// broken in its own.
+/// broken in its own, where what is in a bracket goes on below what it begins with.
 fn broken(sides: &[&str]) -> Vec<String> {
     let one = sides.join(" = ");
     if width(&one) <= WIDTH || sides.len() < 2 {
@@ -164,12 +164,25 @@ fn broken(sides: &[&str]) -> Vec<String> {
         let mut line = head;
         let room = WIDTH.saturating_sub(left + 3);
         let parts = |term: String| if width(&term) > room { terms(&term, 1) } else { vec![term] };
+        let (mut is_begun, mut open) = (false, vec![]);
         for term in terms(side, 0).into_iter().flat_map(parts) {
-            let is_begun = width(&line) > left + 5;
             if is_begun && width(&line) + width(&term) > WIDTH {
-                lines.push(std::mem::replace(&mut line, " ".repeat(left + 3)));
+                let indent = match open.last() {
+                    Some(column) if *column < WIDTH / 2 => column + 1,
+                    Some(_) => left + 5,
+                    None => left + 3,
+                };
+                lines.push(std::mem::replace(&mut line, " ".repeat(indent)));
             }
-            line += &term;
+            for letter in term.chars() {
+                match letter {
+                    '(' => open.push(width(&line)),
+                    ')' => drop(open.pop()),
+                    _ => {}
+                }
+                line.push(letter);
+            }
+            is_begun = true;
         }
         lines.push(line);
     }

@@ -17,7 +17,7 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let mut facts = [
         ["units", "m, kg, s, rad, N, J"],
         ["signs", "a positive τ pushes its joint in the direction in which its coordinate grows"],
-        ["equation", "M·a + C·v + G + passive = τ"],
+        ["equation", "M·a + C·v + G + P = τ"],
         ["C", "of Levi-Civita: Ṁ = C + Cᵀ; of Christoffel's symbols where joints have one coordinate each"],
         ["G", potential],
         ["rotations", "quaternions i, j, k, w; roll, pitch and yaw about fixed x, y and z"],

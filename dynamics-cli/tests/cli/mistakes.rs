@@ -102,6 +102,27 @@ fn a_quaternion_that_is_no_rotation_is_refused_with_its_norm() {
 }
 
 #[test]
+fn all_that_is_wrong_with_a_state_is_said_at_once() {
+    let state = r#"{"q": [1], "w": [1], "v": {"hing": 1, "slider": true}, "a": [1, "2"], "q": [0, 0]}"#;
+    let complaint = dynamics(&["eval", &model("cartpole"), "--state", state]).failed(1);
+    for expected in [
+        "`q` has 1 number, and needs 2",
+        "unknown key `w`",
+        "`v` has no entry `hing`",
+        "`v` of `slider` is true, and no number",
+        "`a` of `hinge` is \"2\", and no number",
+        "the state has `q` twice",
+    ] {
+        assert!(complaint.contains(expected), "no `{expected}` in {complaint}");
+    }
+    let q = "slider=fast,hing=1,hinge=inf";
+    let complaint = dynamics(&["simulate", &model("cartpole"), "--time", "1", "--q", q]).failed(1);
+    for expected in ["`fast` in `--q` is no number", "`--q` has no entry `hing`", "`--q` of `hinge` is inf"] {
+        assert!(complaint.contains(expected), "no `{expected}` in {complaint}");
+    }
+}
+
+#[test]
 fn a_wrong_state_names_the_joints() {
     for (state, expected) in [
         (r#"{"q": [1]}"#, "`q` has 1 number, and needs 2"),

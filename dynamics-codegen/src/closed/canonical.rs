@@ -10,8 +10,8 @@ use crate::symbolic::{Expr, Graph, Number, SymbolId};
 /// Expressions multiplied out, modulo what holds for sines and cosines: two of them are equal if their polynomials are,
 /// and then they are written alike, whatever they were derived by.
 ///
-/// This is exact where all constants are fractions and powers of π. Roots and sines of numbers are known to thirty digits,
-/// and are compared by these. Where something is divided by a sum, `1/(a + b)` is a symbol of its own: fractions are
+/// This is exact where all constants are fractions, multiples of one root, and powers of π. Sums of different roots, and
+/// sines of other numbers, are known to thirty digits, and are compared by these. Where something is divided by a sum, `1/(a + b)` is a symbol of its own: fractions are
 /// cancelled by products, and not by sums.
 pub struct Canonical<'g> {
     expansion: Expansion<'g>,

@@ -6,6 +6,7 @@
 //! brackets anyway, or where like terms would not stand together, as those of `(A + B) sin² + C cos²`.
 
 use super::Form;
+use super::form::is_written_exactly;
 use super::item::{Angle, Factor, Item, Writer, split_powers};
 use crate::symbolic::Number;
 
@@ -357,8 +358,21 @@ pub(super) fn split_common(items: Vec<Item>) -> (Item, Vec<Item>) {
 }
 
 /// A number that all coefficients are simple multiples of: their largest whole divisor, over their one denominator; or the
-/// largest of them, where it is a decimal, as of gravity.
+/// largest of them, where it is a decimal, as of gravity. A root is common to all or stays in the bracket.
 fn common_number(items: &[Item]) -> Number {
+    let radicand = |item: &Item| match item.coefficient {
+        Number::Exact(exact) => exact.radicand(),
+        Number::Float(_) => 1,
+    };
+    let shared = items.first().map_or(1, radicand);
+    if shared != 1
+        && items.iter().all(|item| radicand(item) == shared && is_written_exactly(item.coefficient))
+        && let Some(root) = Number::integer(shared.into()).sqrt()
+    {
+        let mut rest = items.to_vec();
+        rest.iter_mut().for_each(|item| item.coefficient = item.coefficient / root);
+        return root * common_number(&rest);
+    }
     let largest =
         items.iter().map(|item| item.coefficient.abs()).max_by(|a, b| a.cmp_value(*b)).unwrap_or(Number::ONE);
     let ratios = || items.iter().map(|item| item.coefficient.abs() / largest);
@@ -378,7 +392,7 @@ fn common_number(items: &[Item]) -> Number {
     }
     let (mut divisor, mut denominator) = (0, None);
     for item in items {
-        let Some((num, den)) = fraction(item.coefficient.abs()) else { return Number::ONE };
+        let Some((num, den)) = rational_part(item.coefficient.abs()) else { return Number::ONE };
         // Decimals have no common denominator that anybody sees.
         if den > 500 || *denominator.get_or_insert(den) != den {
             return Number::ONE;
@@ -407,6 +421,12 @@ fn is_decimal(mut den: i64) -> bool {
 
 /// Numerator and denominator of a fraction of moderate size.
 fn fraction(value: Number) -> Option<(i64, i64)> {
+    let is_rational = matches!(value, Number::Exact(exact) if exact.is_rational());
+    rational_part(value).filter(|_| is_rational)
+}
+
+/// The same of a fraction times a root.
+fn rational_part(value: Number) -> Option<(i64, i64)> {
     let Number::Exact(exact) = value else { return None };
     let small = |value: i128| i64::try_from(value).ok().filter(|value| value.abs() < 1_000_000);
     (exact.pi_power() == 0).then_some(())?;

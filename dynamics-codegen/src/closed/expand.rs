@@ -111,6 +111,9 @@ impl<'g> Expansion<'g> {
     fn learn_unit(&mut self, angle: &Polynomial) {
         for &(monomial, coefficient) in angle.terms() {
             let Number::Exact(exact) = coefficient else { continue };
+            if !exact.is_rational() {
+                continue;
+            }
             let part = Number::parse_decimal(&exact.denominator().to_string());
             let Some(part) = part.filter(|_| exact.denominator() <= i128::from(MULTIPLES)) else { continue };
             match self.units.iter_mut().find(|(known, _)| *known == monomial) {
@@ -188,7 +191,7 @@ impl<'g> Expansion<'g> {
 /// A whole number, if it is a small one.
 fn whole(value: Number) -> Option<i64> {
     match value {
-        Number::Exact(exact) if exact.denominator() == 1 && exact.pi_power() == 0 => {
+        Number::Exact(exact) if exact.denominator() == 1 && exact.is_rational() => {
             i64::try_from(exact.numerator()).ok()
         }
         _ => None,

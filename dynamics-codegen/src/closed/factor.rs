@@ -140,7 +140,7 @@ fn root_of(sum: Sum) -> Option<Sum> {
 
 fn root_of_number(value: Number) -> Option<Number> {
     let root = if value.is_negative() { None } else { value.sqrt() };
-    root.filter(|root| matches!(root, Number::Exact(_)))
+    root.filter(|root| matches!(root, Number::Exact(exact) if exact.is_rational()))
 }
 
 /// The sum with an item more.

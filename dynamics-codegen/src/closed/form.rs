@@ -36,16 +36,10 @@ impl Form {
     /// 1
     pub const ONE: Self = Self::Number(Number::ONE);
 
-    /// A number. What the compiler knows as a float has six digits on paper, for nobody reads more; so has a fraction of
-    /// more than twelve digits.
+    /// A number. What is not written exactly has six digits on paper, for nobody reads more.
     pub fn number(value: Number) -> Self {
-        const TWELVE_DIGITS: i128 = 1_000_000_000_000;
         let magnitude = match value.abs() {
-            Number::Exact(exact)
-                if exact.pi_power() != 0 || exact.numerator().max(exact.denominator()) < TWELVE_DIGITS =>
-            {
-                Number::Exact(exact)
-            }
+            exact if is_written_exactly(exact) => exact,
             float => Number::parse_decimal(&format!("{:.5e}", float.to_f64())).unwrap_or(float),
         };
         let form = Self::Number(magnitude);
@@ -171,10 +165,14 @@ impl Form {
         Self::Cos(Box::new(self))
     }
 
-    /// `√self`
+    /// `√self`; of a number it is one where that is exact.
     #[must_use]
     pub fn root(self) -> Self {
-        Self::Root(Box::new(self))
+        let number = if let Self::Number(value) = self { value.sqrt() } else { None };
+        match number {
+            Some(root @ Number::Exact(_)) => Self::number(root),
+            _ => Self::Root(Box::new(self)),
+        }
     }
 
     /// Whether the argument of a function is written without parentheses: a name, or a whole number of it.
@@ -182,7 +180,7 @@ impl Form {
         match self {
             Self::Symbol(_) => true,
             Self::Product(factors) => {
-                let is_whole = |value: &Number| matches!(value, Number::Exact(exact) if exact.denominator() == 1 && exact.pi_power() == 0);
+                let is_whole = |value: &Number| matches!(value, Number::Exact(exact) if exact.denominator() == 1 && exact.is_rational());
                 matches!(&factors[..], [Self::Number(value), Self::Symbol(_)] if is_whole(value))
             }
             _ => false,
@@ -206,6 +204,20 @@ impl Form {
             Self::Quotient(a, b) => vec![a, b],
             Self::Sum(parts) | Self::Product(parts) => parts.iter().collect(),
         }
+    }
+}
+
+/// Whether a number is written as it is: a fraction of no more than twelve digits above and below, a root beside no more
+/// than two, what has powers of π; but no float.
+pub(super) fn is_written_exactly(value: Number) -> bool {
+    const TWELVE_DIGITS: u128 = 1_000_000_000_000;
+    const TWO_DIGITS: u128 = 100;
+    let Number::Exact(exact) = value else { return false };
+    let longest = exact.numerator().unsigned_abs().max(exact.denominator().unsigned_abs());
+    match (exact.radicand(), exact.pi_power()) {
+        (1, 0) => longest < TWELVE_DIGITS,
+        (1, _) => true,
+        _ => longest < TWO_DIGITS,
     }
 }
 

@@ -18,7 +18,7 @@ impl Form {
         match self {
             Self::Quotient(..) => Bond::Factor,
             Self::Number(value) => match Numeral::of(*value) {
-                numeral if numeral.below.is_none() && numeral.pi == 0 && numeral.exponent == 0 => Bond::Base,
+                numeral if numeral.is_atom() => Bond::Base,
                 _ => Bond::Factor,
             },
             form => form.bond(),
@@ -102,15 +102,16 @@ fn function(name: &str, power: Option<u32>, argument: &Form, notation: &Notation
 }
 
 fn number(numeral: &Numeral, text: &mut String) {
-    let above = part(&numeral.digits, numeral.exponent, numeral.pi);
+    let above = part(&numeral.digits, numeral.exponent, numeral.pi, numeral.radicand);
     match &numeral.below {
         None => text.push_str(&above),
-        Some((digits, pi)) => text.push_str(&format!("\\frac{{{above}}}{{{}}}", part(digits, 0, *pi))),
+        Some((digits, pi)) => text.push_str(&format!("\\frac{{{above}}}{{{}}}", part(digits, 0, *pi, 1))),
     }
 }
 
-fn part(digits: &str, exponent: i32, pi: u8) -> String {
-    let mut text = if digits == "1" && (pi > 0 || exponent != 0) { String::new() } else { digits.to_owned() };
+fn part(digits: &str, exponent: i32, pi: u8, radicand: u16) -> String {
+    let is_hidden = digits == "1" && (pi > 0 || radicand != 1 || exponent != 0);
+    let mut text = if is_hidden { String::new() } else { digits.to_owned() };
     if exponent != 0 {
         text.push_str(if digits == "1" { "10" } else { " \\cdot 10" });
         text.push_str(&format!("^{{{exponent}}}"));
@@ -119,6 +120,9 @@ fn part(digits: &str, exponent: i32, pi: u8) -> String {
         0 => {}
         1 => text.push_str("\\pi"),
         pi => text.push_str(&format!("\\pi^{{{pi}}}")),
+    }
+    if radicand != 1 {
+        text.push_str(&format!("\\sqrt{{{radicand}}}"));
     }
     text
 }

@@ -31,9 +31,11 @@ fn bond(form: &Form) -> Bond {
     match form {
         Form::Quotient(..) => Bond::Factor,
         Form::Number(value) => {
-            let numeral = Numeral::of(*value);
-            let is_plain = numeral.below.is_none() && numeral.pi == 0 && numeral.exponent == 0;
-            if is_plain { Bond::Base } else { Bond::Factor }
+            if Numeral::of(*value).is_atom() {
+                Bond::Base
+            } else {
+                Bond::Factor
+            }
         }
         form => form.bond(),
     }
@@ -120,19 +122,19 @@ fn function(name: &str, power: Option<u32>, argument: &Form, notation: &Notation
 
 fn number(numeral: &Numeral, text: &mut String) {
     match &numeral.below {
-        None => part(&numeral.digits, numeral.exponent, numeral.pi, text),
+        None => part(&numeral.digits, numeral.exponent, numeral.pi, numeral.radicand, text),
         Some((digits, pi)) => {
             text.push_str("<mfrac><mrow>");
-            part(&numeral.digits, numeral.exponent, numeral.pi, text);
+            part(&numeral.digits, numeral.exponent, numeral.pi, numeral.radicand, text);
             text.push_str("</mrow><mrow>");
-            part(digits, 0, *pi, text);
+            part(digits, 0, *pi, 1, text);
             text.push_str("</mrow></mfrac>");
         }
     }
 }
 
-fn part(digits: &str, exponent: i32, pi: u8, text: &mut String) {
-    if digits != "1" || (pi == 0 && exponent == 0) {
+fn part(digits: &str, exponent: i32, pi: u8, radicand: u16, text: &mut String) {
+    if digits != "1" || (pi == 0 && radicand == 1 && exponent == 0) {
         text.push_str(&format!("<mn>{digits}</mn>"));
     }
     if exponent != 0 {
@@ -145,5 +147,8 @@ fn part(digits: &str, exponent: i32, pi: u8, text: &mut String) {
         0 => {}
         1 => text.push_str("<mi>&#x3C0;</mi>"),
         pi => text.push_str(&format!("<msup><mi>&#x3C0;</mi><mn>{pi}</mn></msup>")),
+    }
+    if radicand != 1 {
+        text.push_str(&format!("<msqrt><mn>{radicand}</mn></msqrt>"));
     }
 }

@@ -199,7 +199,7 @@ impl Writer<'_> {
         }
         // Halves of squares stand before all: `½ m (ẋ² + 2 l cos θ ẋ θ̇ + l² θ̇²)`.
         let half = Number::ratio(1, 2);
-        let is_whole = |value: Number| matches!(value, Number::Exact(exact) if exact.denominator() == 1 && exact.pi_power() == 0);
+        let is_whole = |value: Number| matches!(value, Number::Exact(exact) if exact.denominator() == 1 && exact.is_rational());
         let is_multiple = |item: &Item| is_whole(item.coefficient * Number::integer(2));
         if inside.iter().any(|item| item.coefficient == half) && inside.iter().all(is_multiple) {
             outside.coefficient = outside.coefficient * half;

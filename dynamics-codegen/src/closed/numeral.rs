@@ -1,16 +1,18 @@
-//! How a number is written: whole, as a decimal, or as a fraction, with powers of π and of ten.
+//! How a number is written: whole, as a decimal, or as a fraction, with roots and powers of π and of ten.
 
 use crate::symbolic::Number;
 
 /// A number that is not negative, in the parts that any notation writes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Numeral {
-    /// Digits, with a point if need be; `1` before a power of π is not written.
+    /// Digits, with a point if need be; `1` before a power of π or a root is not written.
     pub(super) digits: String,
     /// The power of ten that follows.
     pub(super) exponent: i32,
     /// The power of π that follows.
     pub(super) pi: u8,
+    /// What stands below a root that follows, or 1.
+    pub(super) radicand: u16,
     /// What all of it is divided by, if it is a fraction: digits, and a power of π.
     pub(super) below: Option<(String, u8)>,
 }
@@ -27,13 +29,14 @@ impl Numeral {
     pub(super) fn of(value: Number) -> Self {
         let Number::Exact(exact) = value else {
             let (digits, exponent) = scientific(&value.to_string());
-            return Self { digits, exponent, pi: 0, below: None };
+            return Self { digits, exponent, pi: 0, radicand: 1, below: None };
         };
         let (num, den) = (exact.numerator().unsigned_abs(), exact.denominator().unsigned_abs());
         let power = exact.pi_power();
         let (pi, pi_below) = (power.max(0).unsigned_abs(), power.min(0).unsigned_abs());
         let is_simple = num <= SMALL && matches!(den, 2 | 4);
-        let decimal = if is_simple || (power != 0 && den != 1) { None } else { decimal(num, den) };
+        let is_fraction = is_simple || !exact.is_rational() && den != 1;
+        let decimal = if is_fraction { None } else { decimal(num, den) };
         let (digits, exponent, is_fraction) = match decimal {
             Some(text) => {
                 let (digits, exponent) = scientific(&text);
@@ -46,27 +49,28 @@ impl Numeral {
             (false, pi) => Some(("1".to_owned(), pi)),
             (true, pi) => Some((den.to_string(), pi)),
         };
-        Self { digits, exponent, pi, below }
+        Self { digits, exponent, pi, radicand: exact.radicand(), below }
     }
 
     /// The parts of a number that stands in front of a product, where one over a power of two is written as such.
     pub(super) fn in_front(value: Number) -> Self {
         match value {
-            Number::Exact(exact) if exact.numerator() == 1 && matches!(exact.denominator(), 8 | 16 | 32) => {
-                Self {
-                    digits: "1".to_owned(),
-                    exponent: 0,
-                    pi: 0,
-                    below: Some((exact.denominator().to_string(), 0)),
-                }
+            Number::Exact(exact)
+                if exact.is_rational()
+                    && exact.numerator() == 1
+                    && matches!(exact.denominator(), 8 | 16 | 32) =>
+            {
+                let below = Some((exact.denominator().to_string(), 0));
+                Self { digits: "1".to_owned(), exponent: 0, pi: 0, radicand: 1, below }
             }
             value => Self::of(value),
         }
     }
 
-    /// Whether it is one piece, and not a product or a fraction.
+    /// Whether it is digits alone, or a root alone.
     pub(super) fn is_atom(&self) -> bool {
-        self.below.is_none() && (self.exponent == 0 || self.pi == 0)
+        let is_root = self.radicand != 1;
+        self.below.is_none() && self.exponent == 0 && self.pi == 0 && (!is_root || self.digits == "1")
     }
 }
 

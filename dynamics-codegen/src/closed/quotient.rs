@@ -3,6 +3,7 @@
 //! A line of text is read from left to right, and so a quotient is the last thing in a product, or its numbers stand in
 //! front: `m ẋ²/x²`, `¼ a² cos²q`. Nothing is divided behind the argument of a function: that is `(g/l) sin θ`.
 
+use super::form::is_written_exactly;
 use super::item::{Factor, Item, Writer};
 use super::notation::Role;
 use super::ring::Variable;
@@ -170,20 +171,20 @@ fn quotient(number: Number, mut above: Vec<Form>, mut below: Vec<Form>) -> Form 
 }
 
 /// Numerator and denominator of a coefficient that is written as a fraction: halves, quarters, thirds and the like, and
-/// one over powers of two; decimals are not.
+/// one over powers of two; decimals are not. A root is above.
 fn fraction(value: Number) -> Option<(Number, Number)> {
     let Number::Exact(exact) = value else { return None };
-    let (num, den) = (exact.numerator(), exact.denominator());
+    let den = exact.denominator();
     let mut rest = den >> den.trailing_zeros();
     while rest % 5 == 0 {
         rest /= 5;
     }
     let is_decimal = rest == 1;
-    let is_power = den <= 32 && num == 1 && den.count_ones() == 1;
-    let whole = |value: i128| Number::parse_decimal(&value.to_string());
+    let is_power = den <= 32 && exact.numerator() == 1 && den.count_ones() == 1;
     let is_fraction = !is_decimal || is_half(value) || is_power;
-    (is_fraction && exact.pi_power() == 0).then_some(())?;
-    Some((whole(num)?, whole(den)?))
+    (is_fraction && exact.pi_power() == 0 && is_written_exactly(value)).then_some(())?;
+    let den = Number::parse_decimal(&den.to_string())?;
+    Some((value * den, den))
 }
 
 /// Whether a coefficient is a half, or has a few halves or quarters, which stand in front.

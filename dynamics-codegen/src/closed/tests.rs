@@ -62,6 +62,9 @@ fn numbers_are_written_as_people_write_them() {
     let notation = Notation::new();
     let ratio = |num, den| Form::number(Number::ratio(num, den));
     let pi = |num, den| Form::number(Number::PI * Number::ratio(num, den));
+    let root = |of: i64, num, den| {
+        Form::number(Number::integer(of).sqrt().unwrap_or(Number::NAN) * Number::ratio(num, den))
+    };
     let cases = [
         (ratio(1, 2), "½", "\\frac{1}{2}"),
         (ratio(-3, 2), "−3/2", "-\\frac{3}{2}"),
@@ -77,6 +80,15 @@ fn numbers_are_written_as_people_write_them() {
         (pi(3, 4), "3π/4", "\\frac{3\\pi}{4}"),
         (Form::ONE.over(pi(2, 1)), "1/(2π)", "\\frac{1}{2\\pi}"),
         (Form::number(Number::PI * Number::PI), "π²", "\\pi^{2}"),
+        (root(2, 1, 1), "√2", "\\sqrt{2}"),
+        (root(3, -1, 2), "−√3/2", "-\\frac{\\sqrt{3}}{2}"),
+        (root(12, 1, 1), "2√3", "2\\sqrt{3}"),
+        (root(3, 1, 3), "√3/3", "\\frac{\\sqrt{3}}{3}"),
+        (root(3, 1, 1).over(pi(2, 1)), "√3/(2π)", "\\frac{\\sqrt{3}}{2\\pi}"),
+        (Form::product([root(3, 2, 9), pi(1, 1)]), "2π√3/9", "\\frac{2\\pi\\sqrt{3}}{9}"),
+        // Nobody reads a root beside so many digits.
+        (root(3, 317, 200), "2.7453", "2.7453"),
+        (root(101, 1, 1), "10.0499", "10.0499"),
     ];
     for (form, unicode, latex) in cases {
         assert_eq!((form.unicode(&notation), form.latex(&notation)), (unicode.to_owned(), latex.to_owned()));

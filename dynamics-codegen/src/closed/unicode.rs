@@ -44,8 +44,8 @@ impl Form {
             Self::Number(value) if fraction_letter(*value).is_some() => Bond::Factor,
             Self::Number(value) => match Numeral::of(*value) {
                 numeral if numeral.below.is_some() => Bond::Product,
-                numeral if !numeral.is_atom() || numeral.pi > 0 || numeral.exponent != 0 => Bond::Factor,
-                _ => Bond::Base,
+                numeral if numeral.is_atom() => Bond::Base,
+                _ => Bond::Factor,
             },
             Self::Symbol(_) | Self::Root(_) => Bond::Base,
         }
@@ -170,18 +170,18 @@ fn number(numeral: &Numeral, value: Number, text: &mut String) {
         text.push(letter);
         return;
     }
-    part(&numeral.digits, numeral.exponent, numeral.pi, text);
+    part(&numeral.digits, numeral.exponent, numeral.pi, numeral.radicand, text);
     if let Some((digits, pi)) = &numeral.below {
         text.push('/');
         let is_product = *pi > 0 && digits != "1";
         text.push_str(if is_product { "(" } else { "" });
-        part(digits, 0, *pi, text);
+        part(digits, 0, *pi, 1, text);
         text.push_str(if is_product { ")" } else { "" });
     }
 }
 
-fn part(digits: &str, exponent: i32, pi: u8, text: &mut String) {
-    if digits != "1" || (pi == 0 && exponent == 0) {
+fn part(digits: &str, exponent: i32, pi: u8, radicand: u16, text: &mut String) {
+    if digits != "1" || (pi == 0 && radicand == 1 && exponent == 0) {
         text.push_str(digits);
     }
     if exponent != 0 {
@@ -196,5 +196,8 @@ fn part(digits: &str, exponent: i32, pi: u8, text: &mut String) {
             text.push('π');
             raised(pi.into(), text);
         }
+    }
+    if radicand != 1 {
+        text.push_str(&format!("√{radicand}"));
     }
 }

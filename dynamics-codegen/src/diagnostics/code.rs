@@ -192,7 +192,7 @@ catalogue! {
     SpeedMisplaced => "write what depends on speeds as `#[dissipation(…)]` or `#[kinetic(…)]`",
     /// A kinetic term that is no quadratic form of the speeds.
     NotQuadratic => "add up products of two speeds, each times anything of coordinates and fields, as in \
-         `m / 2 * (dot(r)^2 + r^2 * dot(theta)^2)`",
+         `m / 2 * (dot(r)^2 + r^2 * dot(theta)^2)`; what depends on the position alone is a `#[potential(…)]`, negated",
     /// A term, or a part of one, on which nothing that moves has an influence.
     TermIdle => "let it depend on what moves, or leave it out",
     /// A dissipation whose derivative by the speeds is not zero at rest, or none.

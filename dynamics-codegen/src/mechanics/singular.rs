@@ -45,6 +45,12 @@ pub fn idle_motion_at(tree: &Tree<f64>, q: &[f64]) -> Option<Vec<usize>> {
     idle_motion_of(&Oracle::new(tree).mass_matrix(q), &elimination(tree))
 }
 
+/// Whether M has no inverse: a motion moves no mass, or an entry is no number.
+pub(super) fn is_singular(M: &Vec<Vec<f64>>) -> bool {
+    let one_by_one: Vec<_> = (0..M.len()).map(|k: usize| k.checked_sub(1)).collect();
+    M.iter().flatten().any(|entry| !entry.is_finite()) || idle_motion_of(M, &one_by_one).is_some()
+}
+
 /// The speeds that each speed is eliminated into.
 fn elimination(tree: &Tree<f64>) -> Vec<Option<usize>> {
     let columns = columns(tree.links.iter().map(|link| (link.parent, link.motion, link.drive)));
@@ -75,7 +81,7 @@ fn idle_motion_of(M: &Vec<Vec<f64>>, parents: &[Option<usize>]) -> Option<Vec<us
 
 #[cfg(test)]
 mod tests {
-    use super::idle_motion_of;
+    use super::{idle_motion_of, is_singular};
 
     #[test]
     fn joints_on_one_axis_cancel_each_other() {
@@ -85,5 +91,8 @@ mod tests {
         assert_eq!(idle_motion_of(&M, &[None, Some(0)]), Some(vec![0]));
         let M = vec![vec![3.0, 0.0], vec![0.0, 1e-9]];
         assert_eq!(idle_motion_of(&M, &[None, Some(0)]), None);
+        assert!(!is_singular(&M));
+        assert!(is_singular(&vec![vec![3.0, 3.0], vec![3.0, 3.0]]));
+        assert!(is_singular(&vec![vec![f64::NAN]]));
     }
 }

@@ -3,15 +3,15 @@
 //!
 //! A sine and a cosine are a random point of the circle `s² + c² = 1`, in its rational parametrisation, for each symbol;
 //! those of sums and multiples follow by the addition formulas. π is a random element, a quaternion a random point of its
-//! sphere, a root one of the two. What is a float to the compiler has no value here.
+//! sphere, a root one of the two, those of whole numbers such that they multiply. What is a float to the compiler has no value here.
 
 use dynamics_codegen::closed::{Form, Notation};
 use dynamics_codegen::mechanics::equations::{Input, Inputs};
 use dynamics_codegen::passes::{Operand, Operation, Program, Source};
 use dynamics_codegen::symbolic::{Expr, Graph, NodeId, Number, Op, SymbolId};
 
-/// The prime 2⁶¹ − 1, which is 3 modulo 4.
-const P: u64 = (1 << 61) - 1;
+/// A prime that is −1 modulo 840: the small primes have roots, and a root is a power.
+const P: u64 = (1 << 61) - 3153;
 
 /// All angles are multiples of a symbol by this fraction.
 const PARTS: i64 = 840;
@@ -42,6 +42,25 @@ fn power(a: u64, n: u64) -> u64 {
 
 fn inverse(a: u64) -> Option<u64> {
     (a != 0).then(|| power(a, P - 2))
+}
+
+/// The smaller one of the two roots.
+fn root(a: u64) -> Option<u64> {
+    let root = power(a, P.div_ceil(4));
+    let root = root.min(negative(root));
+    (times(root, root) == a).then_some(root)
+}
+
+/// The product of the roots of the prime factors.
+fn root_of_whole(mut n: u64) -> Option<u64> {
+    let (mut product, mut factor) = (1, 2);
+    while n > 1 {
+        while n.is_multiple_of(factor) {
+            (product, n) = (times(product, root(factor)?), n / factor);
+        }
+        factor += 1;
+    }
+    Some(product)
 }
 
 /// A value, and of what is a sum of multiples of symbols also these.
@@ -113,7 +132,8 @@ impl Point {
         let pi = power(self.pi, exact.pi_power().unsigned_abs().into());
         let pi = if exact.pi_power() < 0 { inverse(pi)? } else { pi };
         let linear = exact.numerator().eq(&0).then(Vec::new);
-        Some(Value { residue: times(ratio, pi), linear, number: Some(value) })
+        let residue = times(times(ratio, pi), root_of_whole(exact.radicand().into())?);
+        Some(Value { residue, linear, number: Some(value) })
     }
 
     fn symbol(&self, symbol: SymbolId) -> Value {
@@ -155,10 +175,7 @@ impl Point {
     }
 
     fn root(&self, a: &Value) -> Option<Value> {
-        let root = power(a.residue, P.div_ceil(4));
-        // The smaller one of the two.
-        let root = root.min(negative(root));
-        (times(root, root) == a.residue).then_some(Value { residue: root, linear: None, number: None })
+        Some(Value { residue: root(a.residue)?, linear: None, number: None })
     }
 
     /// The sine and the cosine of a sum of multiples of symbols.

@@ -345,4 +345,20 @@ pub struct PendulumOnCart<T> { pub m0: T, pub m1: T, pub m2: T, pub l1: T, pub l
 #[body(load, solid = point(load))]
 pub struct Pulley<T> { pub m: T, pub load: T, pub r: T, pub b: T, pub j: T, pub g: T }"#,
     ),
+    (
+        "inclined_pendulum",
+        r#"#[dynamics(gravity = [0, 0, -g])]
+#[joint(theta: revolute(z), world -> rod, rpy = [60deg, 0, 0])]
+#[body(rod, mass = m, com = [l, 0, 0], inertia = diag(ix, iy, iz))]
+pub struct InclinedPendulum<T> { pub m: T, pub l: T, pub g: T, pub ix: T, pub iy: T, pub iz: T }"#,
+    ),
+    (
+        "diagonal_axes",
+        r#"#[dynamics(gravity = [0, 0, -g])]
+#[joint(alpha: revolute([1, 1, 1]), world -> frame)]
+#[body(frame, mass = m1, com = [a, 0, 0], inertia = diag(0.02, 0.02, 0.02))]
+#[joint(beta: revolute(x), frame -> wheel, at = [0, a * sqrt(2) / 2, 0])]
+#[body(wheel, solid = point(m2), com = [0, r, 0])]
+pub struct DiagonalAxes<T> { pub m1: T, pub m2: T, pub a: T, pub r: T, pub g: T }"#,
+    ),
 ];

@@ -187,7 +187,9 @@ impl Text<'_, '_> {
         let has_springs = self.model.tree.links.iter().any(|link| !link.passive.stiffness.is_zero());
         if has_springs {
             self.text(
-                "The springs in the joints are not in $V|V$: they come in as forces, where the equations of motion are.",
+                "The springs in the joints are not in $V|V$: their energy $½ k (q − q₀)²|\\tfrac12 k (q - q_0)^2$ is counted \
+                 apart, as the elastic energy, and their forces are in $P|P$, where the equations of motion are. A spring \
+                 written as a term of the energies, `#[potential(k / 2 * (theta - rest)^2)]`, is in $V|V$.",
             );
         }
     }

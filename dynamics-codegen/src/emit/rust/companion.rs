@@ -54,6 +54,7 @@ impl Emitter<'_, '_> {
             parameters: &self.parameters,
             literals: self.literals(),
             sizes: self.sizes,
+            is_passive: self.is_passive(),
             closed: None,
         };
         let body = body::write(program, &self.fields, &context, 3);

@@ -39,6 +39,8 @@ pub(super) struct Context<'a> {
     pub(super) literals: Literals,
     /// The sizes of the arguments.
     pub(super) sizes: Sizes,
+    /// Whether something acts by itself: there is a P beside M, C and G.
+    pub(super) is_passive: bool,
     /// The robot's equations as people write them, where these are short.
     pub(super) closed: Option<&'a ClosedForms>,
 }

@@ -171,8 +171,14 @@ impl<'m, 'g> Emitter<'m, 'g> {
             parameters,
             literals: self.literals(),
             sizes: self.sizes,
+            is_passive: self.is_passive(),
             closed: self.input.closed,
         }
+    }
+
+    /// Whether something acts by itself, as springs and dampers do.
+    pub(super) fn is_passive(&self) -> bool {
+        self.input.compiled.methods.iter().any(|compiled| compiled.method == Method::PassiveForces)
     }
 
     fn methods(&self) -> Vec<Written> {

@@ -75,7 +75,7 @@ pub(super) fn write(
 
 /// The first lines of a method's documentation: what it is, and its closed form.
 pub(super) fn documentation(method: Method, context: &Context<'_>) -> String {
-    let mut text = format!("    /// {}\n", headline(method, context.sizes.inputs.dof));
+    let mut text = format!("    /// {}\n", headline(method, context));
     let closed = equations::documentation(context.closed, method);
     if !closed.is_empty() {
         text.push_str("    ///\n");
@@ -323,21 +323,28 @@ pub(super) fn return_type(method: Method, scalar: &str, sizes: Sizes) -> String 
     }
 }
 
-fn headline(method: Method, n: usize) -> String {
+fn headline(method: Method, context: &Context<'_>) -> String {
+    let n = context.sizes.inputs.dof;
     match method {
         Method::MassMatrix => format!("`M(q)`: {n}×{n}, symmetric positive definite."),
         Method::CoriolisMatrix => format!("`C(q,v)`: {n}×{n}, with `Ṁ = C + Cᵀ`."),
         Method::GravityForces => "`G(q) = ∂V/∂q`, on the left-hand side.".to_owned(),
+        Method::BiasForces if context.is_passive => "`C(q,v)·v + G(q) + P(q,v)`.".to_owned(),
         Method::BiasForces => "`C(q,v)·v + G(q)`.".to_owned(),
         Method::PassiveForces => {
-            "What dampers, friction, springs and terms of dissipation do, on the left-hand side.".to_owned()
+            "`P(q,v)`: what dampers, friction, springs and terms of dissipation do, on the left-hand side."
+                .to_owned()
         }
+        Method::InverseDynamics if context.is_passive => "`τ = M·a + C·v + G + P`.".to_owned(),
         Method::InverseDynamics => "`τ = M·a + C·v + G`.".to_owned(),
+        Method::ForwardDynamics if context.is_passive => "`a = M⁻¹·(τ − C·v − G − P)`.".to_owned(),
         Method::ForwardDynamics => "`a = M⁻¹·(τ − C·v − G)`.".to_owned(),
         Method::InverseMassMatrix => format!("`M(q)⁻¹`: {n}×{n}."),
         Method::KineticEnergy => "`T = ½ vᵀ·M·v`, J.".to_owned(),
         Method::PotentialEnergy => "`V(q)`, J.".to_owned(),
-        Method::ElasticEnergy => "The energy of springs, J.".to_owned(),
+        Method::ElasticEnergy => {
+            "The energy of springs in joints, J; no part of `V`, for their forces are in `P`.".to_owned()
+        }
         Method::Lagrangian => "`L = T − V`, J.".to_owned(),
         Method::EquationsOfMotion => "`M(q)`, `C(q,v)` and `G(q)` in one.".to_owned(),
         Method::InverseDynamicsDerivatives => "`∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M`.".to_owned(),

@@ -5,7 +5,8 @@ use super::figure::neutral;
 use super::{Linear, NoLinear, WITHOUT_NAMES};
 use crate::closed::{Form, Matrix, Notation, close};
 use crate::mechanics::equations::Inputs;
-use crate::mechanics::plain::{self, Cholesky, Dual};
+use crate::mechanics::plain::{self, Dual};
+use crate::mechanics::singular::is_singular;
 use crate::model::{Model, Tree};
 use crate::symbolic::{Evaluator, Expr, Graph};
 
@@ -24,7 +25,7 @@ pub(super) fn linear<'g>(
         return Err(NoLinear::NotSmooth);
     }
     let M = plain::mass_matrix(tree, &q);
-    if (0..n).any(|k| M[k][k].is_zero()) || is_singular(model, graph, &M) {
+    if (0..n).any(|k| M[k][k].is_zero()) || has_no_inverse(model, graph, &M) {
         return Err(NoLinear::Singular);
     }
     let moved: Tree<Dual<Expr<'g>>> = tree.map(Dual::constant);
@@ -65,16 +66,8 @@ pub(super) fn linear<'g>(
     Ok(Linear { mass_matrix, stiffness, damping, hold, lower, inputs: Matrix::of_rows(inputs.collect()) })
 }
 
-/// Whether M has no inverse, with values of their size for the fields: but for rounding a pivot is nothing.
-fn is_singular<'g>(model: &Model<'g>, graph: &'g Graph, M: &[Vec<Expr<'g>>]) -> bool {
+/// Whether M has no inverse, with values of their size for the fields.
+fn has_no_inverse<'g>(model: &Model<'g>, graph: &'g Graph, M: &[Vec<Expr<'g>>]) -> bool {
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
-    let mut values: Vec<Vec<f64>> =
-        M.iter().map(|row| row.iter().map(|&entry| evaluator.value(entry)).collect()).collect();
-    for (k, row) in values.iter_mut().enumerate() {
-        row[k] *= 1.0 - ROUNDING;
-    }
-    Cholesky::of(&values).is_none()
+    is_singular(&M.iter().map(|row| row.iter().map(|&entry| evaluator.value(entry)).collect()).collect())
 }
-
-/// What rounding leaves of a pivot that is zero, of the inertia that it is the rest of.
-const ROUNDING: f64 = 1e-12;

@@ -1,7 +1,8 @@
 //! Exact constants: what the compiler knows of a number until it writes it down.
 //!
-//! A constant is a fraction times a power of π, exactly, for as long as that fits into 128 bits, and
-//! otherwise a float of more than 100 bits. It is rounded to a double once, by [`Number::to_f64`].
+//! A constant is a fraction times a root of a whole number and a power of π, exactly, for as long as that
+//! fits into 128 bits, and otherwise a float of more than 100 bits. It is rounded to a double once, by
+//! [`Number::to_f64`].
 //! Nothing here depends on the host: no library function, no fused operation, no heap but for text.
 
 mod ratio;
@@ -9,6 +10,7 @@ mod ratio;
 mod tests;
 mod text;
 mod trig;
+mod unit;
 mod wide;
 
 pub use ratio::Exact;
@@ -28,7 +30,7 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// - a result beyond the range of doubles is not a number: ask [`is_finite`](Self::is_finite).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Number {
-    /// A fraction times a power of π.
+    /// A fraction times a root of a whole number and a power of π.
     Exact(Exact),
     /// A rounded number, never zero; or the mark of a result that is no number.
     Float(Wide),
@@ -57,7 +59,7 @@ impl Number {
     /// If `den` is zero.
     pub fn ratio(num: i64, den: i64) -> Self {
         Self::Exact(
-            Exact::reduced(num.into(), den.into(), 0).expect("a ratio needs a denominator other than zero"),
+            Exact::reduced(num.into(), den.into()).expect("a ratio needs a denominator other than zero"),
         )
     }
 
@@ -91,16 +93,16 @@ impl Number {
         }
     }
 
-    /// The nearest double: always for fractions, parsed numbers and floats, and for powers of π up to
-    /// their 100 bits. Not a number if the number is not finite.
+    /// The nearest double: always for fractions, parsed numbers and floats, and for roots and powers of π up
+    /// to their 100 bits. Not a number if the number is not finite.
     pub fn to_f64(self) -> f64 {
         match self {
-            Self::Exact(exact) if exact.pi_power() == 0 => exact.ratio_to_f64(),
+            Self::Exact(exact) if exact.is_rational() => exact.ratio_to_f64(),
             _ => self.to_wide().hi(),
         }
     }
 
-    /// The number as it is stored: `21/50`, `-π/2`, `3π²/4`; the shortest decimal of a float.
+    /// The number as it is stored: `21/50`, `-π/2`, `3π²/4`, `√3/2`; the shortest decimal of a float.
     pub fn exact_text(self) -> String {
         match self {
             Self::Exact(exact) => text::exact_text(exact),
@@ -146,16 +148,14 @@ impl Number {
 
     /// The order by value, `Equal` only for equal values; what is not finite comes last.
     ///
-    /// Different powers of π closer than 2^-100 of their size are told apart, but by their powers.
+    /// Different roots and powers of π closer than 2^-100 of their size are told apart, but by these.
     pub fn cmp_value(self, other: Self) -> Ordering {
         if self == other {
             return Ordering::Equal;
         }
         match (self, other) {
-            (Self::Exact(a), Self::Exact(b)) if a.pi_power() == b.pi_power() => a.cmp_ratio(b),
-            (Self::Exact(a), Self::Exact(b)) => {
-                a.to_wide().cmp(b.to_wide()).then(a.pi_power().cmp(&b.pi_power()))
-            }
+            (Self::Exact(a), Self::Exact(b)) if a.unit() == b.unit() => a.cmp_ratio(b),
+            (Self::Exact(a), Self::Exact(b)) => a.to_wide().cmp(b.to_wide()).then(a.unit().cmp(&b.unit())),
             (Self::Float(a), Self::Float(b)) => a.cmp(b),
             (Self::Exact(a), Self::Float(b)) => cmp_exact_float(a, b),
             (Self::Float(a), Self::Exact(b)) => cmp_exact_float(b, a).reverse(),
@@ -175,7 +175,7 @@ impl Number {
         Some(Self::from_wide(self.to_wide().div(rhs.to_wide())))
     }
 
-    /// `√self`, exact of perfect squares; `None` of negative numbers.
+    /// `√self`, exact of fractions with a short radicand; `None` of negative numbers.
     pub fn sqrt(self) -> Option<Self> {
         if self.is_negative() {
             return None;
@@ -188,7 +188,7 @@ impl Number {
         Some(Self::from_wide(self.to_wide().sqrt()))
     }
 
-    /// `sin(self)`, in radians; exact of multiples of π wherever it is rational.
+    /// `sin(self)`, in radians; exact of multiples of π wherever it, or its square, is rational.
     ///
     /// Not finite from 2^50 rad on, unless the angle is a fraction of π.
     pub fn sin(self) -> Self {

@@ -1,26 +1,27 @@
-//! An exact constant: a reduced 128-bit fraction times a power of π.
+//! An exact constant: a reduced 128-bit fraction times a root and a power of π.
 //!
 //! Every operation answers `None` where its exact result does not fit, and the caller goes on with
 //! [`Wide`]. Sums and products reduce before they multiply (D. Knuth, *The Art of Computer
 //! Programming* 2, §4.5.1), so that intermediate values overflow only if the result nearly does.
 
+use super::unit::{Unit, square_and_rest};
 use super::wide::{Wide, power_of_two};
 use std::cmp::Ordering;
 
-/// `num / den · π^pi`: `den > 0`, `gcd(num, den) = 1`, `num ≠ i128::MIN`, and `pi = 0` if `num = 0`.
+/// `num / den · √root · π^pi`: `den > 0`, `gcd(num, den) = 1`, `num ≠ i128::MIN`, and the unit is 1 if `num = 0`.
 ///
-/// The fields are canonical and π is transcendental: two values are equal exactly if their fields are.
+/// The fields are canonical, and so are units: two values are equal exactly if their fields are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Exact {
     num: i128,
     den: i128,
-    pi: i8,
+    unit: Unit,
 }
 
 impl Exact {
     pub(super) const ZERO: Self = Self::integer(0);
     pub(super) const ONE: Self = Self::integer(1);
-    pub(super) const PI: Self = Self { num: 1, den: 1, pi: 1 };
+    pub(super) const PI: Self = Self { num: 1, den: 1, unit: Unit::PI };
 
     /// The numerator; it carries the sign.
     pub const fn numerator(self) -> i128 {
@@ -32,31 +33,45 @@ impl Exact {
         self.den
     }
 
+    /// The square-free number whose root it is a multiple of; 1 if it is none.
+    pub const fn radicand(self) -> u16 {
+        self.unit.root
+    }
+
     /// The power of π.
     pub const fn pi_power(self) -> i8 {
-        self.pi
+        self.unit.pi
+    }
+
+    pub(super) const fn unit(self) -> Unit {
+        self.unit
+    }
+
+    /// Whether it is a fraction alone.
+    pub const fn is_rational(self) -> bool {
+        self.unit.root == 1 && self.unit.pi == 0
     }
 
     pub(super) const fn integer(value: i64) -> Self {
-        Self { num: value as i128, den: 1, pi: 0 }
+        Self { num: value as i128, den: 1, unit: Unit::ONE }
     }
 
-    /// `num / den · π^pi` in lowest terms; `None` if `den` is zero or a part does not fit.
-    pub(super) fn reduced(num: i128, den: i128, pi: i8) -> Option<Self> {
+    /// `num / den` in lowest terms; `None` if `den` is zero or a part does not fit.
+    pub(super) fn reduced(num: i128, den: i128) -> Option<Self> {
         if den == 0 || num == i128::MIN || den == i128::MIN {
             return None;
         }
         let (num, den) = if den < 0 { (-num, -den) } else { (num, den) };
         let g = gcd(num, den);
-        Self::canonical(num / g, den / g, pi)
+        Self::canonical(num / g, den / g, Unit::ONE)
     }
 
-    /// `num / den · π^pi` of parts that are already in lowest terms.
-    fn canonical(num: i128, den: i128, pi: i8) -> Option<Self> {
+    /// `num / den · unit` of parts that are already in lowest terms.
+    fn canonical(num: i128, den: i128, unit: Unit) -> Option<Self> {
         match num {
             0 => Some(Self::ZERO),
             i128::MIN => None,
-            _ => Some(Self { num, den, pi }),
+            _ => Some(Self { num, den, unit }),
         }
     }
 
@@ -74,8 +89,8 @@ impl Exact {
         let zeros = mantissa.trailing_zeros();
         let odd = if value < 0.0 { -(mantissa >> zeros) } else { mantissa >> zeros };
         match biased - 1075 + zeros as i32 {
-            shift @ 0..=126 => Self::canonical(odd.checked_mul(1 << shift)?, 1, 0),
-            shift @ -126..=-1 => Self::canonical(odd, 1 << -shift, 0),
+            shift @ 0..=126 => Self::canonical(odd.checked_mul(1 << shift)?, 1, Unit::ONE),
+            shift @ -126..=-1 => Self::canonical(odd, 1 << -shift, Unit::ONE),
             _ => None,
         }
     }
@@ -88,7 +103,7 @@ impl Exact {
         Self { num: self.num.abs(), ..self }
     }
 
-    /// `None` also for powers of π that differ: such a sum is no longer of this form.
+    /// `None` also for units that differ: such a sum is no longer of this form.
     pub(super) fn checked_add(self, rhs: Self) -> Option<Self> {
         if self.num == 0 {
             return Some(rhs);
@@ -96,11 +111,11 @@ impl Exact {
         if rhs.num == 0 {
             return Some(self);
         }
-        if self.pi != rhs.pi {
+        if self.unit != rhs.unit {
             return None;
         }
         if self.den == 1 && rhs.den == 1 {
-            return Self::canonical(self.num.checked_add(rhs.num)?, 1, self.pi);
+            return Self::canonical(self.num.checked_add(rhs.num)?, 1, self.unit);
         }
         let g = gcd(self.den, rhs.den);
         let (left, right) = if g == 1 { (self.den, rhs.den) } else { (self.den / g, rhs.den / g) };
@@ -113,41 +128,60 @@ impl Exact {
         }
         let shared = if g == 1 { 1 } else { gcd(num, g) };
         let (num, right) = if shared == 1 { (num, rhs.den) } else { (num / shared, rhs.den / shared) };
-        Self::canonical(num, left.checked_mul(right)?, self.pi)
+        Self::canonical(num, left.checked_mul(right)?, self.unit)
     }
 
     pub(super) fn checked_mul(self, rhs: Self) -> Option<Self> {
         if self.num == 0 || rhs.num == 0 {
             return Some(Self::ZERO);
         }
-        let pi = self.pi.checked_add(rhs.pi)?;
-        if self.den == 1 && rhs.den == 1 {
-            return Self::canonical(self.num.checked_mul(rhs.num)?, 1, pi);
-        }
-        let (a, d) = cancel(self.num, rhs.den);
-        let (c, b) = cancel(rhs.num, self.den);
-        Self::canonical(a.checked_mul(c)?, b.checked_mul(d)?, pi)
+        let (whole, unit) = self.unit.checked_mul(rhs.unit)?;
+        let product = if self.den == 1 && rhs.den == 1 {
+            Self::canonical(self.num.checked_mul(rhs.num)?, 1, unit)?
+        } else {
+            let (a, d) = cancel(self.num, rhs.den);
+            let (c, b) = cancel(rhs.num, self.den);
+            Self::canonical(a.checked_mul(c)?, b.checked_mul(d)?, unit)?
+        };
+        if whole == 1 { Some(product) } else { product.checked_scale(whole) }
+    }
+
+    /// `whole · self`
+    fn checked_scale(self, whole: i128) -> Option<Self> {
+        let (whole, den) = cancel(whole, self.den);
+        Self::canonical(self.num.checked_mul(whole)?, den, self.unit)
     }
 
     /// `1 / self`; `None` of zero.
     pub(super) fn checked_recip(self) -> Option<Self> {
-        let pi = self.pi.checked_neg()?;
-        match self.num.signum() {
-            0 => None,
-            1 => Some(Self { num: self.den, den: self.num, pi }),
-            _ => Some(Self { num: -self.den, den: -self.num, pi }),
+        let unit = Unit { pi: self.unit.pi.checked_neg()?, ..self.unit };
+        let recip = match self.num.signum() {
+            0 => return None,
+            1 => Self { num: self.den, den: self.num, unit },
+            _ => Self { num: -self.den, den: -self.num, unit },
+        };
+        if unit.root == 1 {
+            return Some(recip);
         }
+        // 1/√n = √n/n
+        let (num, root) = cancel(recip.num, unit.root.into());
+        Self::canonical(num, recip.den.checked_mul(root)?, unit)
     }
 
-    /// The root of a perfect square.
+    /// The root of a fraction, times an even power of π.
     pub(super) fn checked_sqrt(self) -> Option<Self> {
-        let root = |square: i128| square.checked_isqrt().filter(|root| root * root == square);
-        let even = self.pi % 2 == 0;
-        even.then_some(())?;
-        Some(Self { num: root(self.num)?, den: root(self.den)?, pi: self.pi / 2 })
+        let unit = self.unit.checked_sqrt()?;
+        if self.num == 0 {
+            return Some(self);
+        }
+        // √(n/d) = √(nd)/d, and n and d have no divisor in common.
+        let ((num, above), (den, below)) = (square_and_rest(self.num)?, square_and_rest(self.den)?);
+        let above = Unit { root: above, ..unit };
+        let (_, unit) = above.checked_mul(Unit { root: below, pi: 0 })?;
+        Self::canonical(num, den.checked_mul(below.into())?, unit)
     }
 
-    /// The order by value of two constants with the same power of π.
+    /// The order by value of two constants with the same unit.
     pub(super) fn cmp_ratio(self, rhs: Self) -> Ordering {
         let (left, right) = (self.num.checked_mul(rhs.den), rhs.num.checked_mul(self.den));
         if let (Some(left), Some(right)) = (left, right) {
@@ -156,14 +190,14 @@ impl Exact {
         cmp_continued((self.num, self.den), (rhs.num, rhs.den))
     }
 
-    /// `hi + rest` of a constant without π, the rest to its own 100 bits.
+    /// `hi + rest` of a fraction, the rest to its own 100 bits.
     pub(super) fn split_double(self) -> Option<(f64, Wide)> {
         let hi = self.ratio_to_f64();
         let rest = self.checked_add(Self::from_f64(hi)?.neg())?;
-        (self.pi == 0).then(|| (hi, rest.to_wide()))
+        self.is_rational().then(|| (hi, rest.to_wide()))
     }
 
-    /// The double nearest to `num / den`, ties to even; the power of π is left out.
+    /// The double nearest to `num / den`, ties to even; the unit is left out.
     pub(super) fn ratio_to_f64(self) -> f64 {
         const EXACT: u128 = 1 << 53;
         let (num, den) = (self.num.unsigned_abs(), self.den.unsigned_abs());
@@ -187,11 +221,7 @@ impl Exact {
     pub(super) fn to_wide(self) -> Wide {
         let num = Wide::from_i128(self.num);
         let ratio = if self.den == 1 { num } else { num.div(Wide::from_i128(self.den)) };
-        match self.pi {
-            0 => ratio,
-            1.. => ratio.mul(Wide::PI.power(self.pi.unsigned_abs())),
-            _ => ratio.div(Wide::PI.power(self.pi.unsigned_abs())),
-        }
+        if self.is_rational() { ratio } else { ratio.mul(self.unit.to_wide()) }
     }
 }
 

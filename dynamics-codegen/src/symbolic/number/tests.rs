@@ -13,7 +13,7 @@ fn n(text: &str) -> Number {
 }
 
 fn exact(num: i128, den: i128) -> Exact {
-    Exact::reduced(num, den, 0).unwrap()
+    Exact::reduced(num, den).unwrap()
 }
 
 fn pi_times(num: i64, den: i64) -> Number {
@@ -194,14 +194,62 @@ fn order_is_by_value() {
 }
 
 #[test]
-fn roots_are_exact_of_squares_and_wide_otherwise() {
+fn roots_are_exact_where_their_radicands_are_short() {
     assert_eq!(Number::ratio(49, 64).sqrt(), Some(Number::ratio(7, 8)));
     assert_eq!((Number::PI * Number::PI).sqrt(), Some(Number::PI));
     assert_eq!(Number::ZERO.sqrt(), Some(Number::ZERO));
     assert_eq!(n("-1").sqrt(), None);
+    assert_eq!(Number::ratio(1, 3).sqrt().map(Number::exact_text).as_deref(), Some("√3/3"));
+    assert_eq!(n("0.5").sqrt().map(Number::exact_text).as_deref(), Some("√2/2"));
+    assert_eq!(Number::integer(13 * 11 * 11).sqrt(), n("13").sqrt().map(|root| root * n("11")));
+    assert_eq!((n("12") * Number::PI * Number::PI).sqrt().map(Number::exact_text).as_deref(), Some("2π√3"));
+    // Of a root and of an odd power of π there is no exact root.
+    for inexact in [n("2").sqrt().unwrap(), Number::PI, n("101"), n("65537"), n("123456789.5")] {
+        assert!(matches!(inexact.sqrt(), Some(Number::Float(_))), "{inexact:?}");
+    }
     for text in ["2", "0.3", "1e-9", "123456789.5", "1e300", "1e-250"] {
         let root = n(text).sqrt().unwrap();
         assert_relatively_close(root * root, n(text));
     }
     assert_close(n("2").sqrt().unwrap(), n("1.414213562373095048801688724209698078570"));
+}
+
+#[test]
+fn roots_multiply_exactly_and_add_where_they_are_alike() {
+    let root = |square: i64| Number::integer(square).sqrt().unwrap();
+    assert_eq!(root(2) * root(2), n("2"));
+    assert_eq!(root(6) * root(15), n("3") * root(10));
+    assert_eq!(root(12) - root(3), root(3));
+    assert_eq!(root(3) - root(3), Number::ZERO);
+    assert_eq!(root(3).recip() * root(3), Number::ONE);
+    assert_eq!(-(root(18) / n("-6")), root(2) / n("2"));
+    let [third, sixth] = [3, 6].map(|den| pi_times(1, den));
+    assert_eq!(third.sin(), root(3) / n("2"));
+    assert_eq!(sixth.cos() * sixth.cos() + sixth.sin() * sixth.sin(), Number::ONE);
+    assert_eq!(pi_times(3, 4).cos(), -root(2) / n("2"));
+    // Those of others are sums of roots, which are rounded.
+    let sum = root(2) + root(3);
+    assert!(matches!(sum, Number::Float(_)));
+    assert_close(sum * sum, n("5") + n("2") * root(6));
+    assert_close((root(6) - root(2)) / n("4"), pi_times(1, 12).sin());
+}
+
+#[test]
+fn operations_on_roots_agree_with_rounded_ones() {
+    let mut random = Random(3);
+    let mut next = || {
+        let ratio = exact(random.signed(40) | 1, random.signed(30).abs() + 1);
+        let root = Number::integer([1, 2, 3, 5, 6, 10, 15, 30][random.below(8) as usize]).sqrt().unwrap();
+        Number::Exact(ratio) * root * [Number::ONE, Number::PI, Number::PI.recip()][random.below(3) as usize]
+    };
+    for _ in 0..2000 {
+        let (x, y) = (next(), next());
+        assert!(matches!(x, Number::Exact(_)) && matches!(x * y, Number::Exact(_)));
+        assert_relatively_close(x * y, Number::from_wide(x.to_wide().mul(y.to_wide())));
+        assert_relatively_close(x / y, Number::from_wide(x.to_wide().div(y.to_wide())));
+        assert_close(x + y, Number::from_wide(x.to_wide().add(y.to_wide())));
+        assert_eq!((x / y) * y, x);
+        assert_eq!(x.cmp_value(y), x.to_wide().cmp(y.to_wide()));
+        assert_eq!(x.to_f64(), x.to_wide().hi());
+    }
 }

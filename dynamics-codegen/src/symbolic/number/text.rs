@@ -95,7 +95,7 @@ fn exact(decimal: &Decimal) -> Option<Exact> {
     }
     let places = u32::try_from(decimal.exponent.unsigned_abs()).ok()?;
     if decimal.exponent >= 0 {
-        return Exact::reduced(num.checked_mul(10_i128.checked_pow(places)?)?, 1, 0);
+        return Exact::reduced(num.checked_mul(10_i128.checked_pow(places)?)?, 1);
     }
     // The last digit is not zero: twos or fives cancel, never both.
     let twos = num.trailing_zeros().min(places);
@@ -105,7 +105,7 @@ fn exact(decimal: &Decimal) -> Option<Exact> {
         (num, fives) = (num / 5, fives + 1);
     }
     let den = 5_i128.checked_pow(places - fives)?.checked_mul(2_i128.checked_pow(places - twos)?)?;
-    Exact::reduced(num, den, 0)
+    Exact::reduced(num, den)
 }
 
 /// The magnitude to two doubles.
@@ -155,16 +155,20 @@ impl fmt::Display for Number {
     }
 }
 
-/// `21/50`, `-π/2`, `3π²/4`, `2/(3π)`.
+/// `21/50`, `-π/2`, `3π²/4`, `2/(3π)`, `2π√3/3`.
 pub(super) fn exact_text(exact: Exact) -> String {
     let (magnitude, den) = (exact.numerator().unsigned_abs(), exact.denominator());
     let sign = if exact.numerator() < 0 { "-" } else { "" };
     let pi = power_of_pi(exact.pi_power().unsigned_abs());
     let above = exact.pi_power() > 0;
+    let root = match exact.radicand() {
+        1 => String::new(),
+        radicand => format!("√{radicand}"),
+    };
+    let unit = if above { format!("{pi}{root}") } else { root };
     let num = match magnitude {
-        1 if above => pi.clone(),
-        _ if above => format!("{magnitude}{pi}"),
-        _ => magnitude.to_string(),
+        1 if !unit.is_empty() => unit,
+        _ => format!("{magnitude}{unit}"),
     };
     match (den, above || pi.is_empty()) {
         (1, true) => format!("{sign}{num}"),

@@ -1,8 +1,8 @@
 //! Sine, cosine and arc tangent of constants, from IEEE 754 arithmetic alone.
 //!
-//! Angles that are fractions of π are reduced exactly, and give exact results wherever the result is
-//! rational (I. Niven: only 0, ±1/2 and ±1 are). Other angles are reduced by a π/2 of 159 bits, and
-//! then summed by their Taylor series on `[-π/4, π/4]`.
+//! Angles that are fractions of π are reduced exactly, and give exact results wherever the square of the
+//! result is rational (I. Niven: only 0, 1/4, 1/2, 3/4 and 1 are). Other angles are reduced by a π/2 of
+//! 159 bits, and then summed by their Taylor series on `[-π/4, π/4]`.
 
 use super::ratio::Exact;
 use super::wide::Wide;
@@ -100,12 +100,12 @@ fn atan_start(slope: f64) -> f64 {
 /// `r·π = whole·π/2 + rest·π` with `|rest| ≤ 1/4`; `rest` is without its π, `whole` modulo 4.
 fn split_quarters(angle: Exact) -> Option<(i64, Exact)> {
     let (num, den) = (angle.numerator(), angle.denominator());
-    if angle.pi_power() != 1 || den >= 1 << 120 {
+    if angle.pi_power() != 1 || angle.radicand() != 1 || den >= 1 << 120 {
         return (num == 0).then_some((0, Exact::ZERO));
     }
     let num = num.rem_euclid(2 * den);
     let whole = (4 * num + den) / (2 * den);
-    Some((whole as i64, Exact::reduced(2 * num - whole * den, 2 * den, 0)?))
+    Some((whole as i64, Exact::reduced(2 * num - whole * den, 2 * den)?))
 }
 
 /// `sin(quarters·π/2 + rest·π)` for `|rest| ≤ 1/4`.

@@ -126,6 +126,7 @@ fn text_is_written_as_documented() {
     assert_eq!(text(Number::PI * pi_times(3, 4)), pair("7.402203300817019", "3π²/4"));
     assert_eq!(text(Number::PI.recip()), pair("0.3183098861837907", "1/π"));
     assert_eq!(text((Number::PI * n("-1.5")).recip()), pair("-0.2122065907891938", "-2/(3π)"));
-    assert_eq!(text(n("2").sqrt().unwrap()), pair("1.4142135623730951", "1.4142135623730951"));
+    assert_eq!(text(n("2").sqrt().unwrap()), pair("1.4142135623730951", "√2"));
+    assert_eq!(text(n("-0.75").abs().sqrt().unwrap() / Number::PI).1, "√3/(2π)");
     assert_eq!(text(n("6.62607015e-34")).0, "6.62607015e-34");
 }
