@@ -87,7 +87,13 @@ fn told(subject: &Subject<'_, '_>) -> String {
         Some(_) => "v = q̇, but for ball and free joints, whose v is the twist of the body in its own axes,",
         None => "v = q̇",
     };
-    format!("The joints move by M(q)·a + C(q,v)·v + G(q){term} = τ, where {rates} and a = v̇{forces}.")
+    let springs = match passive.contains(&"springs") {
+        true => " Energy of springs in joints is counted apart, and is no part of V.",
+        false => "",
+    };
+    format!(
+        "The joints move by M(q)·a + C(q,v)·v + G(q){term} = τ, where {rates} and a = v̇{forces}.{springs}"
+    )
 }
 
 /// What acts in the robot by itself, beside its potentials.

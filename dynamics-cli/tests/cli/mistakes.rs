@@ -116,7 +116,8 @@ fn all_that_is_wrong_with_a_state_is_said_at_once() {
         assert!(complaint.contains(expected), "no `{expected}` in {complaint}");
     }
     let q = "slider=fast,hing=1,hinge=inf";
-    let complaint = dynamics(&["simulate", &model("cartpole"), "--time", "1", "--q", q]).failed(1);
+    let simulate = ["simulate", &model("cartpole"), "--time", "1", "--step", "0.1", "--q", q];
+    let complaint = dynamics(&simulate).failed(1);
     for expected in ["`fast` in `--q` is no number", "`--q` has no entry `hing`", "`--q` of `hinge` is inf"] {
         assert!(complaint.contains(expected), "no `{expected}` in {complaint}");
     }
