@@ -1,9 +1,24 @@
 //! How many operations the outputs take, beside what others take: `cargo run -p dynamics-bench --example counts`.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
 
-use dynamics_bench::industrial::{iiwa14::Iiwa14, planar_2dof::Planar2Dof, puma560_by_dh::Puma560ByDh};
+use dynamics_bench::industrial::{iiwa14::Iiwa14, puma560_by_dh::Puma560ByDh};
 use dynamics_bench::models::hyq::Hyq;
-use dynamics_core::{Cost, Costs};
+use dynamics_core::prelude::*;
+
+/// Two point masses on two rods.
+#[derive(Dynamics)]
+#[dynamics(gravity = [0, 0, -g])]
+#[joint(upper: revolute(x), world -> first)]
+#[body(first, solid = point(m1), com = [0, 0, -l1])]
+#[joint(lower: revolute(x), first -> second, at = [0, 0, -l1])]
+#[body(second, solid = point(m2), com = [0, 0, -l2])]
+struct DoublePendulum<T> {
+    m1: T,
+    m2: T,
+    l1: T,
+    l2: T,
+    g: T,
+}
 
 /// Multiplications, additions, divisions.
 type Count = [u32; 3];
@@ -50,7 +65,7 @@ struct Robot {
 const ROBOTS: [Robot; 4] = [
     Robot {
         name: "double pendulum",
-        costs: Planar2Dof::COST,
+        costs: DoublePendulum::<f64>::COST,
         joints: None, // in a plane a general algorithm would be no match
         marks: [
             Some([13, 10, 0]),

@@ -128,7 +128,7 @@ pub(crate) fn lanes(robots: &[String], times: &Times) -> String {
                 let is_met = ratio >= MARK_IN_LANES;
                 *met += usize::from(is_met);
                 let bold = if is_met { "**" } else { "" };
-                let _ = write!(table, " {time:.1} | {bold}{ratio:.0}{bold} |");
+                let _ = write!(table, " {time:.1} | {bold}{ratio:.1}{bold} |");
             }
             table += "\n";
             rows += 1;
