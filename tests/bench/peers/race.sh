@@ -9,18 +9,20 @@ target=${CARGO_TARGET_DIR:-$root/target}
 run() { taskset -c "${CPU:-0}" "$@"; }
 
 sh build.sh "$@"
-RUSTFLAGS="" cargo build -q --release -p dynamics-bench --examples
+RUSTFLAGS="" cargo build -q --release -p dynamics-bench --example race --example ours
 RUSTFLAGS="-C target-cpu=native" cargo build -q --release -p dynamics-bench --example ours --target-dir "$target/native"
 RUSTFLAGS="-C target-cpu=native" cargo bench -q -p dynamics-bench --bench runtime --target-dir "$target/native" --no-run
+batch=$(RUSTFLAGS="-C target-cpu=native" cargo bench -p dynamics-bench --bench batch --target-dir "$target/native" --no-run 2>&1 | sed -n 's/.*Executable.*(\(.*\))/\1/p')
 ours=$target/native/release/examples/ours
 out=$target/race
 
-run "$target/release/examples/race" build/bench "$ours" "$target/release/examples/ours" "$out" "$@"
+run "$target/release/examples/race" build/bench "$ours" "$target/release/examples/ours" "$batch" "$out" "$@"
 [ $# -eq 0 ] || exit 0
-for table in race agreement generic bundles; do
+for table in race agreement lanes generic bundles; do
     ../compare.sh "$table" < "$out/$table.md" > /dev/null
 done
 cp "$out/race.svg" "$root/tests/bench/race.svg"
+"$batch" | ../compare.sh cores
 run env RUSTFLAGS="-C target-cpu=native" cargo bench -q -p dynamics-bench --bench runtime --target-dir "$target/native" | ../compare.sh alone
 {
     printf '| | |\n|---|---|\n'

@@ -89,12 +89,31 @@ pub fn least<S, O>(states: &[S], call: impl Fn(&S) -> O) -> f64 {
     best
 }
 
+/// A robot with every output, of one state and of several in lanes.
+pub trait InLanes<const NQ: usize, const NV: usize>:
+    DynamicsDerivatives<f64, NQ, NV>
+    + DynamicsDerivatives<f64x4, NQ, NV>
+    + DynamicsDerivatives<f64x8, NQ, NV>
+    + DynamicsDerivatives<f32x8, NQ, NV>
+    + Configuration<f64, NQ, NV>
+    + Sync
+{
+}
+
+impl<R, const NQ: usize, const NV: usize> InLanes<NQ, NV> for R where
+    R: DynamicsDerivatives<f64, NQ, NV>
+        + DynamicsDerivatives<f64x4, NQ, NV>
+        + DynamicsDerivatives<f64x8, NQ, NV>
+        + DynamicsDerivatives<f32x8, NQ, NV>
+        + Configuration<f64, NQ, NV>
+        + Sync
+{
+}
+
 /// What is done with a robot.
 pub trait Visitor {
     /// Does it.
-    fn visit<R, const NQ: usize, const NV: usize>(&mut self, name: &str, robot: &R)
-    where
-        R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>;
+    fn visit<R: InLanes<NQ, NV>, const NQ: usize, const NV: usize>(&mut self, name: &str, robot: &R);
 }
 
 /// Shows a visitor the robot of that name, if there is one.

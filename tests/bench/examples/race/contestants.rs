@@ -17,6 +17,12 @@ pub(crate) enum Contestant {
     Ours,
     /// Ours, built for any machine of its kind.
     Generic,
+    /// Ours for this machine, several states a call, in lanes of the type of that name.
+    F64x4,
+    F64x8,
+    F32x8,
+    /// The same by `batch::map`, from slices and back.
+    Batch,
 }
 
 /// Where the programs and the files of states are.
@@ -24,6 +30,7 @@ pub(crate) struct Programs {
     peers: PathBuf,
     ours: PathBuf,
     generic: PathBuf,
+    lanes: PathBuf,
     folder: PathBuf,
 }
 
@@ -35,12 +42,13 @@ pub(crate) struct Line {
 }
 
 impl Programs {
-    pub(crate) fn new(peers: &str, ours: &str, generic: &str, folder: &Path) -> Self {
+    pub(crate) fn new([peers, ours, generic, lanes]: [&str; 4], folder: &Path) -> Self {
         let absolute = |path: &str| {
             std::fs::canonicalize(path).unwrap_or_else(|error| panic!("{path} is not there: {error}"))
         };
         let folder = absolute(&folder.to_string_lossy());
-        Self { peers: absolute(peers), ours: absolute(ours), generic: absolute(generic), folder }
+        let [peers, ours, generic, lanes] = [peers, ours, generic, lanes].map(absolute);
+        Self { peers, ours, generic, lanes, folder }
     }
 
     fn states(&self, robot: &str) -> PathBuf {
@@ -74,6 +82,7 @@ impl Programs {
         let mut all = self.peers("values", robot);
         all.extend(lines(&ours, Contestant::Ours));
         all.extend(lines(&generic, Contestant::Generic));
+        all.extend(lines(&run(Command::new(&self.lanes).args(["values", robot])), Contestant::Ours));
         all
     }
 
@@ -84,6 +93,7 @@ impl Programs {
         times.keep(robot, lines(&run(Command::new(&self.ours).args(["time", robot])), Contestant::Ours));
         let generic = run(Command::new(&self.generic).args(["time", robot]));
         times.keep(robot, lines(&generic, Contestant::Generic));
+        times.keep(robot, lines(&run(Command::new(&self.lanes).args(["time", robot])), Contestant::Ours));
     }
 }
 
@@ -101,6 +111,10 @@ fn lines(text: &str, ours: Contestant) -> Vec<Line> {
         let contestant = match *library {
             "pinocchio" => Contestant::Pinocchio,
             "casadi" => Contestant::Casadi,
+            "f64x4" => Contestant::F64x4,
+            "f64x8" => Contestant::F64x8,
+            "f32x8" => Contestant::F32x8,
+            "batch" => Contestant::Batch,
             _ => ours,
         };
         Line {
@@ -131,7 +145,7 @@ impl Times {
         }
     }
 
-    /// What a call takes, if the contestant has the output.
+    /// What a state takes, if the contestant has the output.
     pub(crate) fn get(&self, robot: &str, output: &str, contestant: Contestant) -> Option<f64> {
         self.least.get(&(robot.to_owned(), output.to_owned(), contestant)).copied()
     }

@@ -11,6 +11,15 @@ use crate::contestants::{Contestant, Times};
 
 /// How many times as fast as Pinocchio and as CasADi's C ours is to be.
 const MARKS: [f64; 2] = [10.0, 3.0];
+/// How many times as fast as Pinocchio a state is to be in lanes.
+const MARK_IN_LANES: f64 = 30.0;
+/// The ways of several states a call.
+const IN_LANES: [(&str, Contestant); 4] = [
+    ("f64x4", Contestant::F64x4),
+    ("f64x8", Contestant::F64x8),
+    ("f32x8", Contestant::F32x8),
+    ("`batch::map`", Contestant::Batch),
+];
 
 /// One cell of the race, times in nanoseconds a call.
 pub(crate) struct Row {
@@ -96,6 +105,39 @@ pub(crate) fn agreement(robots: &[String], differences: &[Difference]) -> String
         }
         table += "\n";
     }
+    table
+}
+
+/// A state among several in lanes, beside Pinocchio's.
+pub(crate) fn lanes(robots: &[String], times: &Times) -> String {
+    let names = IN_LANES.map(|(name, _)| format!("{name} | ×"));
+    let mut table = format!(
+        "| robot | output | Pinocchio | {} |\n|---|---|--:|{}\n",
+        names.join(" | "),
+        "--:|--:|".repeat(names.len())
+    );
+    let mut met = [0; IN_LANES.len()];
+    let mut rows = 0;
+    for robot in robots {
+        for (output, _) in OUTPUTS {
+            let Some(pinocchio) = times.get(robot, output, Contestant::Pinocchio) else { continue };
+            let _ = write!(table, "| {robot} | {output} | {pinocchio:.1} |");
+            for ((_, contestant), met) in IN_LANES.into_iter().zip(&mut met) {
+                let time = times.get(robot, output, contestant).unwrap_or(f64::NAN);
+                let ratio = pinocchio / time;
+                let is_met = ratio >= MARK_IN_LANES;
+                *met += usize::from(is_met);
+                let bold = if is_met { "**" } else { "" };
+                let _ = write!(table, " {time:.1} | {bold}{ratio:.1}{bold} |");
+            }
+            table += "\n";
+            rows += 1;
+        }
+    }
+    let met: Vec<String> =
+        IN_LANES.iter().zip(met).map(|((name, _), met)| format!("{met} by {name}")).collect();
+    let _ =
+        writeln!(table, "\nOf {rows} cells, {MARK_IN_LANES} times Pinocchio are met in {}.", met.join(", "));
     table
 }
 
