@@ -1,6 +1,7 @@
 //! What generated code needs, under names no user can shadow. Not part of the public interface.
 
 pub mod each;
+mod in_place;
 pub mod inverse;
 pub mod manifold;
 pub mod recursion;

@@ -54,6 +54,19 @@ pub(crate) fn row_of<T: Scalar, const K: usize, const W: usize>(columns: &[[T; K
     row
 }
 
+/// S rows of W columns of a product: the sum of column `k` of `a` times `factors(k)` over all `k` in `terms`.
+#[inline(always)]
+pub(crate) fn products<T: Scalar, const R: usize, const W: usize, const S: usize>(
+    a: &[[T; R]],
+    factors: impl Fn(usize) -> [T; W],
+    terms: impl Iterator<Item = usize>,
+    strip: usize,
+) -> [[T; S]; W] {
+    let mut sums = [[T::zero(); S]; W];
+    add_products(a, factors, terms, strip, &mut sums);
+    sums
+}
+
 /// Writes W columns of a product: in each of the strips of rows the sum of column `k` of `a` times `factors(k)` over
 /// all `k` in `terms(strip)`.
 #[inline(always)]
@@ -65,8 +78,7 @@ pub(crate) fn multiply<T: Scalar, const R: usize, const W: usize, I: Iterator<It
     result: &mut [[T; R]; W],
 ) {
     for strip in strips {
-        let mut sums = [[T::zero(); STRIP]; W];
-        add_products(a, &factors, terms(strip), strip, &mut sums);
+        let sums: [[T; STRIP]; W] = products(a, &factors, terms(strip), strip);
         write_strip(result, strip, &sums);
     }
 }

@@ -9,8 +9,9 @@
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, §6.5; J. Du Croz, N. Higham, *Stability of methods
 //! for matrix inversion*, IMA Journal of Numerical Analysis 12, 1992, for the inverse of a triangular matrix.
 
+use super::in_place::{Tile, blank, mirror, put, transposed};
 use crate::product::{
-    COLUMNS, LONG_STRIP, STRIP, add_products, multiply, row_of, strip_of, strips, write_strip,
+    COLUMNS, LONG_STRIP, STRIP, add_products, multiply, products, row_of, strip_of, strips, write_strip,
 };
 use crate::scalar::Scalar;
 
@@ -104,25 +105,24 @@ impl<const N: usize> EliminationTree<N> {
 pub struct Factors<T, const N: usize> {
     /// Where they have entries.
     pub tree: &'static EliminationTree<N>,
-    /// `R`, by columns.
+    /// `R`, by columns; what is above a strip of the diagonal is not read.
     pub r: [[T; N]; N],
-    /// `Rᵀ`, by columns.
+    /// `Rᵀ`, by columns; what is below a strip of the diagonal is not read.
     pub r_transposed: [[T; N]; N],
     /// `1/D`
     pub inverse_d: [T; N],
 }
 
 impl<T: Scalar, const N: usize> Factors<T, N> {
-    /// Before there are any: of the identity.
+    /// Before there are any.
     #[inline]
     #[must_use]
     pub fn new(tree: &'static EliminationTree<N>) -> Self {
-        let zeros = [[T::zero(); N]; N];
-        Self { tree, r: zeros, r_transposed: zeros, inverse_d: [T::one(); N] }
+        Self { tree, r: blank(), r_transposed: blank(), inverse_d: [T::one(); N] }
     }
 
-    /// Those of a symmetric positive definite matrix, of which the rows up to the diagonal are read. Only of new ones:
-    /// what functions return is copied, so that they are made first.
+    /// Those of a symmetric positive definite matrix, of which the rows up to the diagonal are read. What functions
+    /// return is copied, so that they are made first.
     ///
     /// # Cost
     ///
@@ -130,7 +130,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     #[inline]
     pub fn factor(&mut self, m: &[[T; N]; N]) {
         let Self { tree, r, r_transposed, inverse_d } = self;
-        factor(m, tree, r_transposed, inverse_d);
+        factor(m, tree, r_transposed, r, inverse_d);
         invert_triangular(r_transposed, tree, r);
         transpose_triangular(r, r_transposed);
     }
@@ -139,106 +139,111 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     ///
     /// # Cost
     ///
-    /// About N² multiplications and additions for each column, fused where the target can.
+    /// As that of [`minus_solved`](Self::minus_solved).
     #[inline]
     pub fn minus_solve<const M: usize>(&self, b: &mut [[T; N]; M]) {
+        *b = self.minus_solved(b);
+    }
+
+    /// `−M⁻¹·B`, by columns.
+    ///
+    /// # Cost
+    ///
+    /// About N² multiplications and additions for each column, fused where the target can.
+    #[inline(never)]
+    pub fn minus_solved<const M: usize>(&self, b: &[[T; N]; M]) -> [[T; N]; M] {
+        let mut solved = blank();
         // As many columns at a time as leave none for last.
-        if M.is_multiple_of(6) && !M.is_multiple_of(COLUMNS) {
-            self.minus_solve_by::<6>(b);
-        } else {
-            self.minus_solve_by::<COLUMNS>(b);
-        }
-    }
-
-    /// So many columns at a time.
-    #[inline(always)]
-    fn minus_solve_by<const W: usize>(&self, b: &mut [[T; N]]) {
+        let width = if M.is_multiple_of(6) && !M.is_multiple_of(COLUMNS) { 6 } else { COLUMNS };
         let minus_inverse_d = self.inverse_d.map(|x| -x);
-        let (blocks, rest) = b.as_chunks_mut::<W>();
-        for columns in blocks {
-            self.solve_columns(columns, &minus_inverse_d);
+        macro_rules! solve_by {
+            ($width:ident, $columns:expr) => {
+                let mut halfway = [[T::zero(); N]; $width];
+                for first in $columns.step_by($width) {
+                    let Some(columns) = b.get(first..).and_then(<[_]>::first_chunk::<$width>) else { continue };
+                    self.write_halfway(columns, &minus_inverse_d, &mut halfway);
+                    for strip in 0..strips(N) {
+                        let factors = |k| row_of(&halfway, k);
+                        let sums: [[T; STRIP]; $width] =
+                            products(&self.r, factors, self.tree.below(strip), strip);
+                        put!(solved: [[_; N]; M], first, strip, sums);
+                    }
+                }
+            };
         }
-        for column in rest {
-            self.solve_columns(core::array::from_mut(column), &minus_inverse_d);
+        const SIX: usize = 6;
+        const ONE: usize = 1;
+        if width == SIX {
+            solve_by!(SIX, 0..M);
+        } else {
+            solve_by!(COLUMNS, 0..M / COLUMNS * COLUMNS);
+            solve_by!(ONE, M / COLUMNS * COLUMNS..M);
         }
+        solved
     }
 
+    /// Writes `D⁻¹ Rᵀ·B`, with the given `D⁻¹`.
     #[inline(always)]
-    fn solve_columns<const W: usize>(&self, b: &mut [[T; N]; W], inverse_d: &[T; N]) {
-        let tree = self.tree;
-        let mut y = [[T::zero(); N]; W];
-        let beyond = |strip: usize| tree.beyond(strip);
-        multiply(&self.r_transposed, |k| row_of(&*b, k), beyond, 0..strips(N), &mut y);
-        for column in &mut y {
+    fn write_halfway<const W: usize>(&self, b: &[[T; N]; W], inverse_d: &[T; N], halfway: &mut [[T; N]; W]) {
+        let beyond = |strip: usize| self.tree.beyond(strip);
+        multiply(&self.r_transposed, |k| row_of(b, k), beyond, 0..strips(N), halfway);
+        for column in halfway {
             scale(column, inverse_d);
         }
-        let below = |strip: usize| tree.below(strip);
-        multiply(&self.r, |k| row_of(&y, k), below, 0..strips(N), b);
     }
 
-    /// Writes `M⁻¹`, both halves.
+    /// `M⁻¹`, both halves.
     #[inline]
-    pub fn inverse(&self, result: &mut [[T; N]; N]) {
-        inverse(&self.r, &self.inverse_d, self.tree, result);
+    pub fn inverse(&self) -> [[T; N]; N] {
+        inverse(&self.r, &self.inverse_d, self.tree)
     }
 }
 
-/// Writes the inverse of a symmetric positive definite matrix, of which the rows up to the diagonal are read.
+/// The inverse of a symmetric positive definite matrix, of which the rows up to the diagonal are read.
 ///
 /// # Cost
 ///
 /// N³/2 multiplications and additions, fused where the target can; N divisions.
 #[inline]
-pub(super) fn invert<T: Scalar, const N: usize>(
-    m: &[[T; N]; N],
-    tree: &EliminationTree<N>,
-    result: &mut [[T; N]; N],
-) {
-    let (mut r, mut inverse_d) = ([[T::zero(); N]; N], [T::one(); N]);
-    factor(m, tree, result, &mut inverse_d);
-    invert_triangular(result, tree, &mut r);
-    inverse(&r, &inverse_d, tree, result);
+pub(super) fn inverted<T: Scalar, const N: usize>(m: &[[T; N]; N], tree: &EliminationTree<N>) -> [[T; N]; N] {
+    let (mut l, mut r, mut inverse_d) = (blank(), blank(), [T::one(); N]);
+    factor(m, tree, &mut l, &mut r, &mut inverse_d);
+    invert_triangular(&l, tree, &mut r);
+    inverse(&r, &inverse_d, tree)
 }
 
-/// Writes `R D⁻¹ Rᵀ`, both halves.
-#[inline]
+/// `R D⁻¹ Rᵀ`, both halves.
+#[inline(never)]
 fn inverse<T: Scalar, const N: usize>(
     r: &[[T; N]; N],
     inverse_d: &[T; N],
     tree: &EliminationTree<N>,
-    result: &mut [[T; N]; N],
-) {
-    let (blocks, rest) = result.as_chunks_mut::<STRIP>();
-    for (block, result) in blocks.iter_mut().enumerate() {
-        inverse_columns(r, inverse_d, tree, block * STRIP, result);
+) -> [[T; N]; N] {
+    let mut inverse = blank();
+    macro_rules! inverse_by {
+        ($width:ident, $columns:expr) => {
+            for first in $columns.step_by($width) {
+                let factors = |k: usize| {
+                    let mut row: [T; $width] =
+                        r.get(k).map_or([T::zero(); $width], |column| part(column, first));
+                    for x in &mut row {
+                        *x *= entry(inverse_d, k);
+                    }
+                    row
+                };
+                for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
+                    let sums: [[T; LONG_STRIP]; $width] =
+                        products(r, factors, tree.below(first / STRIP), strip);
+                    put!(inverse: [[_; N]; N], first, strip, sums);
+                }
+            }
+        };
     }
-    for (k, column) in rest.iter_mut().enumerate() {
-        inverse_columns(r, inverse_d, tree, N / STRIP * STRIP + k, core::array::from_mut(column));
-    }
-    mirror(result);
-}
-
-/// Writes the columns from `first` on, from their first row on.
-#[inline(always)]
-fn inverse_columns<T: Scalar, const N: usize, const W: usize>(
-    r: &[[T; N]; N],
-    inverse_d: &[T; N],
-    tree: &EliminationTree<N>,
-    first: usize,
-    result: &mut [[T; N]; W],
-) {
-    let factors = |k: usize| {
-        let mut row: [T; W] = r.get(k).map_or([T::zero(); W], |column| part(column, first));
-        for x in &mut row {
-            *x *= entry(inverse_d, k);
-        }
-        row
-    };
-    for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
-        let mut sums = [[T::zero(); LONG_STRIP]; W];
-        add_products(r, factors, tree.below(first / STRIP), strip, &mut sums);
-        write_strip(result, strip, &sums);
-    }
+    const ONE: usize = 1;
+    inverse_by!(STRIP, 0..N / STRIP * STRIP);
+    inverse_by!(ONE, N / STRIP * STRIP..N);
+    mirror!(inverse, N);
+    inverse
 }
 
 #[inline(always)]
@@ -248,23 +253,22 @@ fn scale<T: Scalar, const N: usize>(column: &mut [T; N], factors: &[T; N]) {
     }
 }
 
-/// Writes the rows of `L` before the diagonal, with anything on it and beyond; and `1/D`.
+/// Writes the rows of `L` and `−D·L` before the diagonal, with anything on it and beyond; and `1/D`.
 #[inline]
 fn factor<T: Scalar, const N: usize>(
     m: &[[T; N]; N],
     tree: &EliminationTree<N>,
     l: &mut [[T; N]; N],
+    minus_dl: &mut [[T; N]; N],
     inverse_d: &mut [T; N],
 ) {
-    // The rows of `−D·L`.
-    let mut minus_dl = [[T::zero(); N]; N];
     let (blocks, rest) = m.as_chunks::<STRIP>();
     for (k, row) in rest.iter().enumerate().rev() {
         let first = N / STRIP * STRIP + k;
-        factor_rows(core::array::from_ref(row), first, tree, l, &mut minus_dl, inverse_d);
+        factor_rows(core::array::from_ref(row), first, tree, l, minus_dl, inverse_d);
     }
     for (block, rows) in blocks.iter().enumerate().rev() {
-        factor_rows(rows, block * STRIP, tree, l, &mut minus_dl, inverse_d);
+        factor_rows(rows, block * STRIP, tree, l, minus_dl, inverse_d);
     }
 }
 
@@ -399,10 +403,10 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize>(
     }
 }
 
-/// Writes the transpose of a matrix that is zero above the diagonal, both by columns.
+/// Writes the transpose of a matrix that is zero above the diagonal, both by columns, as far down as the strip of the
+/// diagonal.
 #[inline]
 fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut [[T; N]; N]) {
-    *result = [[T::zero(); N]; N];
     for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate() {
         for (strip, columns_of_result) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().skip(block)
         {
@@ -415,35 +419,6 @@ fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut
         }
     }
 }
-
-/// Copies what is below the diagonal to above it.
-#[inline]
-pub(crate) fn mirror<T: Scalar, const N: usize>(m: &mut [[T; N]; N]) {
-    for block in 0..N / STRIP {
-        let Some((_, blocks)) = m.split_at_mut_checked(block * STRIP) else { continue };
-        let Some((columns, beyond)) = blocks.split_first_chunk_mut::<STRIP>() else { continue };
-        let own = tile(columns, block);
-        write_tile(columns, block, symmetric(own));
-        let (others, rest) = beyond.as_chunks_mut::<STRIP>();
-        for (k, others) in others.iter_mut().enumerate() {
-            write_tile(others, block, transposed(tile(columns, block + 1 + k)));
-        }
-        for (k, other) in rest.iter_mut().enumerate() {
-            for (j, column) in columns.iter().enumerate() {
-                set(other, block * STRIP + j, entry(column, N / STRIP * STRIP + k));
-            }
-        }
-    }
-    for k in N / STRIP * STRIP..N {
-        let Some((before, [column, ..])) = m.split_at_mut_checked(k) else { continue };
-        for (j, other) in before.iter().enumerate().skip(N / STRIP * STRIP) {
-            set(column, j, entry(other, k));
-        }
-    }
-}
-
-/// Four columns of four rows.
-pub(crate) type Tile<T> = [[T; STRIP]; STRIP];
 
 #[inline(always)]
 fn tile<T: Scalar, const N: usize>(columns: &[[T; N]; STRIP], strip: usize) -> Tile<T> {
@@ -458,20 +433,6 @@ fn write_tile<T: Scalar, const N: usize>(columns: &mut [[T; N]; STRIP], strip: u
             *part = values;
         }
     }
-}
-
-/// Entry by entry: loops would become gathers.
-#[inline(always)]
-pub(crate) fn transposed<T: Scalar>(
-    [[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]: Tile<T>,
-) -> Tile<T> {
-    [[a, e, i, m], [b, f, j, n], [c, g, k, o], [d, h, l, p]]
-}
-
-/// With what is below the diagonal above it too.
-#[inline(always)]
-fn symmetric<T: Scalar>([[a, b, c, d], [_, f, g, h], [_, _, k, l], [_, _, _, p]]: Tile<T>) -> Tile<T> {
-    [[a, b, c, d], [b, f, g, h], [c, g, k, l], [d, h, l, p]]
 }
 
 /// W entries from `first` on.

@@ -267,13 +267,15 @@ impl<'m, 'g> Emitter<'m, 'g> {
 
     /// The bodies that bundles and their parts share.
     fn shared(&self, written: &[Written]) -> String {
-        let generics =
-            self.scalar_parameter.as_ref().map_or_else(String::new, |scalar| format!("<{scalar}>"));
         let body = |written: &Written| {
-            let name = written.method.name();
-            let shared =
+            let (name, shared) = (written.method.name(), written.shared.as_ref()?);
+            let parameters: Vec<&str> =
+                self.scalar_parameter.as_deref().into_iter().chain(shared.parameter).collect();
+            let generics =
+                if parameters.is_empty() { String::new() } else { format!("<{}>", parameters.join(", ")) };
+            let header =
                 format!("#[inline(always)]\n    fn {}{generics}(", methods::shared_name(written.method));
-            Some(indented(&written.shared.as_ref()?.replacen(&format!("fn {name}("), &shared, 1)))
+            Some(indented(&shared.text.replacen(&format!("fn {name}("), &header, 1)))
         };
         let bodies: Vec<String> = written.iter().filter_map(body).collect();
         if bodies.is_empty() {

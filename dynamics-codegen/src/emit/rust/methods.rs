@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use super::context::Context;
 use super::equations;
+use super::loops::{by_loops, by_shared_loops, shared_loops};
 use crate::emit::body::{self, Body};
-use crate::emit::names;
 use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
 use crate::passes::{CompiledMethod, Cost, Plan, Program, Sizes};
 
@@ -18,7 +18,15 @@ pub(super) struct Written {
     /// Its text at the indentation of an impl's item.
     pub(super) text: String,
     /// The body that a bundle and its part share.
-    pub(super) shared: Option<String>,
+    pub(super) shared: Option<Shared>,
+}
+
+/// The body that a bundle and its part share.
+pub(super) struct Shared {
+    /// Its text, named as the bundle.
+    pub(super) text: String,
+    /// A type parameter of its own.
+    pub(super) parameter: Option<&'static str>,
 }
 
 /// Writes a method; `scalar` is the name of its scalar type, `robot` that of the type it is a method of.
@@ -50,18 +58,19 @@ pub(super) fn write(
             match *shares {
                 None => body(),
                 Some(bundle) => {
-                    shared = (bundle == *method).then(body);
+                    shared = (bundle == *method).then(|| Shared { text: body(), parameter: None });
                     by_shared(*method, bundle, scalar, context.sizes)
                 }
             }
         }
         Plan::Loops { parents, factoring } => {
-            let body = || by_loops(*method, parents, factoring.as_ref(), context, scalar);
+            let factoring = factoring.as_ref();
             match *shares {
-                None => body(),
+                None => by_loops(*method, parents, factoring, context, scalar),
                 Some(bundle) => {
+                    let body = || shared_loops(*method, parents, factoring, context, scalar);
                     shared = (bundle == *method).then(body);
-                    by_shared(*method, bundle, scalar, context.sizes)
+                    by_shared_loops(*method, bundle, scalar, context.sizes)
                 }
             }
         }
@@ -176,81 +185,6 @@ fn frame_by_table(
         pass_on(method)
     );
     text
-}
-
-/// The body that leaves the matrices to the run time's loops.
-fn by_loops(
-    method: Method,
-    parents: &[Option<usize>],
-    factoring: Option<&Program>,
-    context: &Context<'_>,
-    scalar: &str,
-) -> String {
-    let sizes = context.sizes;
-    let (arguments, returned) = (typed_arguments(method, scalar, sizes), return_type(method, scalar, sizes));
-    let mut text = format!("    fn {}(&self{arguments}) -> {returned} {{\n", method.name());
-    if method == Method::InverseDynamicsWithDerivatives {
-        text.push_str(
-            "        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))\n    }\n",
-        );
-        return text;
-    }
-    let _ = writeln!(text, "        let tree = const {{ &EliminationTree::of({parents:?}) }};");
-    let factors = match (method, factoring) {
-        (Method::InverseMassMatrix, _) => {
-            text.push_str("        inverse_of(&self.mass_matrix(q), tree)\n    }\n");
-            return text;
-        }
-        (_, Some(program)) => factors(program, context),
-        (_, None) => "        let mut factors = Factors::new(tree);\n        factors.factor(&inverse.dtau_da.data.0);\n".to_owned(),
-    };
-    text.push_str("        let a = self.forward_dynamics(q, v, tau);\n");
-    text.push_str("        let mut inverse = self.inverse_dynamics_derivatives(q, v, &a);\n");
-    text.push_str(&factors);
-    text.push_str(match method {
-        Method::ForwardDynamicsWithDerivatives => {
-            "        (a, forward_from_inverse(&mut inverse, &factors))\n    }\n"
-        }
-        _ => "        forward_from_inverse(&mut inverse, &factors)\n    }\n",
-    });
-    text
-}
-
-/// The statements from the mass matrix to its factors.
-fn factors(program: &Program, context: &Context<'_>) -> String {
-    let n = context.sizes.inputs.dof;
-    let parameters: Vec<String> = (0..n * n).map(|k| names::entry("m", k / n, Some(k % n), n)).collect();
-    let (fields, literals) = (&[], context.literals.clone());
-    let context = Context { fields, parameters: &parameters, literals, ..*context };
-    let matrix = (0..n * n).map(|k| names::entry("r", k / n, Some(k % n), n));
-    let wanted: Vec<String> = matrix.chain((0..n).map(|k| names::entry("d", k, None, n))).collect();
-    let body = body::write(program, &wanted, &context, 2);
-    let is_read = |k: usize| body.inputs.iter().any(|(input, _)| *input == Input::Parameter(k));
-    let column = |j: usize| {
-        let entry = |i: usize| if is_read(n * i + j) { parameters[n * i + j].as_str() } else { "_" };
-        format!("[{}]", shortened(&(0..n).map(entry).collect::<Vec<_>>()))
-    };
-    let entries: Vec<&str> = body.results.iter().map(String::as_str).collect();
-    let (r, d) = entries.split_at(n * n);
-    let lines = |texts: Vec<String>| {
-        texts.iter().map(|text| format!("                {text},\n")).collect::<String>()
-    };
-    let columns = |step: usize, skip: usize| {
-        let column = |k: usize| {
-            let entries: Vec<&str> = (0..n).map(|i| r[k * skip + i * step]).collect();
-            format!("[{}]", entries.join(", "))
-        };
-        lines((0..n).map(column).collect())
-    };
-    format!(
-        "        let [\n{}        ] = inverse.dtau_da.data.0;\n\n{}\n        let factors = Factors {{\n            tree,\n            \
-         r: [\n{}            ],\n            r_transposed: [\n{}            ],\n            inverse_d: [{}],\n        }};\n",
-        lines((0..n).map(column).collect()),
-        body.statements,
-        columns(n, 1),
-        columns(1, n),
-        d.join(", ")
-    )
 }
 
 /// Whether the method belongs to a frame, and is given the robot.
@@ -427,7 +361,7 @@ pub(super) fn fields_binding(
 }
 
 /// `q0, q1, ..` where the last components are not read.
-fn shortened(components: &[&str]) -> String {
+pub(super) fn shortened(components: &[&str]) -> String {
     let read = components.iter().rposition(|&name| name != "_").map_or(0, |last| last + 1);
     let mut text = components[..read].join(", ");
     if read < components.len() {

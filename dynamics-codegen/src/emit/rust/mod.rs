@@ -8,6 +8,7 @@ mod equations;
 mod frames;
 mod item;
 mod items;
+mod loops;
 mod mechanism;
 mod methods;
 mod names;

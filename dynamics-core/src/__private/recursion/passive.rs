@@ -48,8 +48,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
 
     /// The armatures' part of the mass matrix.
     pub(super) fn add_armatures(&self, m: &mut SMatrix<T, NV, NV>) {
-        for (drive, passive) in self.driven() {
-            add_entry(m, drive.v, drive.v, drive.reflected(passive.armature));
+        for (speed, armature) in self.armatures() {
+            add_entry(m, speed, speed, armature);
         }
     }
 
@@ -60,10 +60,25 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
         dtau_dq: &mut SMatrix<T, NV, NV>,
         dtau_dv: &mut SMatrix<T, NV, NV>,
     ) {
-        for (drive, passive) in self.driven() {
-            add_entry(dtau_dq, drive.v, drive.v, drive.reflected(passive.stiffness));
-            add_entry(dtau_dv, drive.v, drive.v, drive.reflected(passive.slope(drive.speed(v))));
+        for (speed, [by_place, by_speed]) in self.passive_slopes(v) {
+            add_entry(dtau_dq, speed, speed, by_place);
+            add_entry(dtau_dv, speed, speed, by_speed);
         }
+    }
+
+    /// What stands on the diagonal of the mass matrix, by speeds.
+    #[inline(always)]
+    pub(super) fn armatures(&self) -> impl Iterator<Item = (usize, T)> {
+        self.driven().map(|(drive, passive)| (drive.v, drive.reflected(passive.armature)))
+    }
+
+    /// What stands on the diagonals of the derivatives by position and by speed, by speeds.
+    #[inline(always)]
+    pub(super) fn passive_slopes(&self, v: &[T; NV]) -> impl Iterator<Item = (usize, [T; 2])> {
+        self.driven().map(|(drive, passive)| {
+            let slopes = [passive.stiffness, passive.slope(drive.speed(v))];
+            (drive.v, slopes.map(|slope| drive.reflected(slope)))
+        })
     }
 
     fn driven(&self) -> impl Iterator<Item = (&Drive<T>, &Passive<T>)> {

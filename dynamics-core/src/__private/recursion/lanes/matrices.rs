@@ -9,8 +9,8 @@ use super::place::Placed;
 use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
 use crate::__private::recursion::screw::{Twist, Wrench};
-use crate::__private::recursion::sweep::zeros;
 use crate::__private::recursion::vector::Vector;
+use crate::__private::{columns, vector};
 use crate::dynamics::{EquationsOfMotion, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
@@ -22,49 +22,55 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         let mut moments = MomentsInLanes::zero();
         self.moments(&placed, &mut moments);
         self.collect::<Moments<T>>(&placed.offsets, &mut moments);
-        let mut m = zeros();
-        self.pairs(&placed, &rows(&placed, &moments)).write_mass_matrix(&mut m.data.0);
-        self.tree.add_armatures(&mut m);
-        m
+        let mut rows = WrenchesInLanes::zero();
+        set_rows(&placed, &moments, &mut rows);
+        columns(self.pairs(&placed, &rows).mass_matrix(&self.armatures()))
     }
 
     /// The Coriolis matrix `C(q,v)`: Levi-Civita's, without passive forces.
     pub fn coriolis_matrix(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> SMatrix<T, N, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
-        let velocities = self.velocities(&placed, entries(v));
-        let composites = self.composites(&placed, &velocities);
-        let mut c = zeros();
+        let (mut velocities, mut composites) =
+            (TwistsInLanes::zero(), (MomentsInLanes::zero(), MomentaInLanes::zero()));
+        self.velocities(&placed, entries(v), &mut velocities);
+        self.composites(&placed, &velocities, &mut composites);
         let (mut changes, mut nu) = (Changes::zero(), Vectors::zero());
         by_speed(&placed, &velocities, &composites, &mut changes, &mut nu);
-        self.pairs(&placed, &rows(&placed, &composites.0)).write_changes(&changes, &nu, &mut c.data.0);
-        c
+        let mut rows = WrenchesInLanes::zero();
+        set_rows(&placed, &composites.0, &mut rows);
+        columns(self.pairs(&placed, &rows).changes(&changes, &nu, T::one(), &[]))
     }
 
     /// `M`, `C` and `G`.
     pub fn equations_of_motion(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> EquationsOfMotion<T, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
-        let velocities = self.velocities(&placed, entries(v));
-        let composites = self.composites(&placed, &velocities);
-        let upwards = Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) };
-        let mut result = EquationsOfMotion {
-            mass_matrix: zeros(),
-            coriolis_matrix: zeros(),
-            gravity_forces: SVector::zeros(),
-        };
-        let [forces] = &mut result.gravity_forces.data.0;
-        for (k, force) in forces.iter_mut().enumerate() {
-            *force = placed.twist(k).dot(composites.0.at(k).wrench_of(upwards));
-        }
-        let rows = rows(&placed, &composites.0);
-        let pairs = self.pairs(&placed, &rows);
-        pairs.write_mass_matrix(&mut result.mass_matrix.data.0);
+        let (mut velocities, mut composites) =
+            (TwistsInLanes::zero(), (MomentsInLanes::zero(), MomentaInLanes::zero()));
+        self.velocities(&placed, entries(v), &mut velocities);
+        self.composites(&placed, &velocities, &mut composites);
         let (mut changes, mut nu) = (Changes::zero(), Vectors::zero());
         by_speed(&placed, &velocities, &composites, &mut changes, &mut nu);
-        pairs.write_changes(&changes, &nu, &mut result.coriolis_matrix.data.0);
-        self.tree.add_armatures(&mut result.mass_matrix);
-        result
+        let (mut rows, armatures) = (WrenchesInLanes::zero(), self.armatures());
+        set_rows(&placed, &composites.0, &mut rows);
+        let pairs = self.pairs(&placed, &rows);
+        EquationsOfMotion {
+            mass_matrix: columns(pairs.mass_matrix(&armatures)),
+            coriolis_matrix: columns(pairs.changes(&changes, &nu, T::one(), &[])),
+            gravity_forces: vector(self.gravity_forces(&placed, &composites.0)),
+        }
+    }
+
+    /// `G`, from the moments of all that hangs on each joint.
+    #[inline(never)] // or else M is copied once more
+    fn gravity_forces(&self, placed: &Placed<T, N>, moments: &MomentsInLanes<T, N>) -> [T; N] {
+        let upwards = Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) };
+        let mut forces = [T::zero(); N];
+        for (k, force) in forces.iter_mut().enumerate() {
+            *force = placed.twist(k).dot(moments.at(k).wrench_of(upwards));
+        }
+        forces
     }
 
     /// `∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M` of inverse dynamics.
@@ -76,7 +82,8 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     ) -> InverseDynamicsDerivatives<T, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
-        let (velocities, accelerations) = self.motions(&placed, entries(v), entries(a));
+        let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
+        self.motions(&placed, entries(v), entries(a), [&mut velocities, &mut accelerations]);
         let mut bodies = ((MomentsInLanes::zero(), MomentaInLanes::zero()), WrenchesInLanes::zero());
         let (composites, wrenches) = &mut bodies;
         self.moments(&placed, &mut composites.0);
@@ -85,45 +92,45 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         self.collect::<((Moments<T>, Momenta<T>), Wrench<T>)>(&placed.offsets, &mut bodies);
         let (composites, wrenches) = &bodies;
 
-        let rows = rows(&placed, &composites.0);
+        let (mut of_speeds, mut of_places, mut nu) = (Changes::zero(), Changes::zero(), Vectors::zero());
+        by_speed(&placed, &velocities, composites, &mut of_speeds, &mut nu);
+        by_place(&placed, [&velocities, &accelerations], composites, wrenches, &of_speeds, &mut of_places);
+        let mut rows = WrenchesInLanes::zero();
+        set_rows(&placed, &composites.0, &mut rows);
+        let (armatures, [slopes_by_place, slopes_by_speed]) =
+            (self.armatures(), self.passive_slopes(entries(v)));
         let pairs = self.pairs(&placed, &rows);
-        let mut result = InverseDynamicsDerivatives { dtau_dq: zeros(), dtau_dv: zeros(), dtau_da: zeros() };
-        let (mut changes, mut nu) = (Changes::zero(), Vectors::zero());
-        by_speed(&placed, &velocities, composites, &mut changes, &mut nu);
-        pairs.write_changes(&changes, &nu, &mut result.dtau_dv.data.0);
-        for entry in result.dtau_dv.data.0.as_flattened_mut() {
-            *entry += *entry; // ∂τ/∂v = 2C
+        InverseDynamicsDerivatives {
+            dtau_dq: columns(pairs.changes(&of_places, &nu, T::one(), &slopes_by_place)),
+            dtau_dv: columns(pairs.changes(&of_speeds, &nu, T::of(2.0), &slopes_by_speed)), // ∂τ/∂v = 2C
+            dtau_da: columns(pairs.mass_matrix(&armatures)),
         }
-        by_place(&placed, &velocities, &accelerations, composites, wrenches, &mut changes);
-        pairs.write_changes(&changes, &nu, &mut result.dtau_dq.data.0);
-        pairs.write_mass_matrix(&mut result.dtau_da.data.0);
-        self.tree.add_passive_slopes(entries(v), &mut result.dtau_dq, &mut result.dtau_dv);
-        self.tree.add_armatures(&mut result.dtau_da);
-        result
     }
 
-    /// 𝕁 and 𝔹 of all that hangs on each joint.
-    fn composites(&self, placed: &Placed<T, N>, velocities: &TwistsInLanes<T, N>) -> Composites<T, N> {
-        let mut composites = (MomentsInLanes::zero(), MomentaInLanes::zero());
+    /// Writes 𝕁 and 𝔹 of all that hangs on each joint.
+    fn composites(
+        &self,
+        placed: &Placed<T, N>,
+        velocities: &TwistsInLanes<T, N>,
+        composites: &mut Composites<T, N>,
+    ) {
         self.moments(placed, &mut composites.0);
-        set_momenta(&mut composites, velocities);
-        self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, &mut composites);
-        composites
+        set_momenta(composites, velocities);
+        self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, composites);
     }
 }
 
 type Composites<T, const N: usize> = (MomentsInLanes<T, N>, MomentaInLanes<T, N>);
 
-/// `𝕁 S`: the wrenches of unit motions.
-fn rows<T: Scalar, const N: usize>(
+/// Writes `𝕁 S`: the wrenches of unit motions.
+fn set_rows<T: Scalar, const N: usize>(
     placed: &Placed<T, N>,
     moments: &MomentsInLanes<T, N>,
-) -> WrenchesInLanes<T, N> {
-    let mut rows = WrenchesInLanes::zero();
+    rows: &mut WrenchesInLanes<T, N>,
+) {
     for k in 0..N {
-        moments.at(k).wrench_of(placed.twist(k)).write(&mut rows, k);
+        moments.at(k).wrench_of(placed.twist(k)).write(rows, k);
     }
-    rows
 }
 
 /// 𝔹 of each link.
@@ -172,14 +179,14 @@ fn by_speed<T: Scalar, const N: usize>(
 /// Those of `∂τ/∂q`, from those of C.
 fn by_place<T: Scalar, const N: usize>(
     placed: &Placed<T, N>,
-    velocities: &TwistsInLanes<T, N>,
-    accelerations: &TwistsInLanes<T, N>,
+    [velocities, accelerations]: [&TwistsInLanes<T, N>; 2],
     (moments, momenta): &Composites<T, N>,
     wrenches: &WrenchesInLanes<T, N>,
+    of_speeds: &Changes<T, N>,
     changes: &mut Changes<T, N>,
 ) {
     for k in 0..N {
-        let (unit, velocity, rate) = (placed.twist(k), velocities.at(k), changes.twists.at(k));
+        let (unit, velocity, rate) = (placed.twist(k), velocities.at(k), of_speeds.twists.at(k));
         let acceleration = accelerations.at(k).without_turning(velocity);
         let twist = acceleration.cross(unit) + velocity.cross(rate);
         let turn = rate.angular + rate.angular;

@@ -42,6 +42,25 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     fn turns(&self, k: usize) -> bool {
         self.tree.links.get(k).is_some_and(|link| matches!(link.joint, Joint::Revolute(..)))
     }
+
+    /// What armatures add to the diagonal of M.
+    fn armatures(&self) -> [T; N] {
+        let mut armatures = [T::zero(); N];
+        for (k, armature) in self.tree.armatures() {
+            set(&mut armatures, k, armature);
+        }
+        armatures
+    }
+
+    /// What passive forces add to the diagonals of ∂τ/∂q and ∂τ/∂v.
+    fn passive_slopes(&self, v: &[T; N]) -> [[T; N]; 2] {
+        let [mut by_place, mut by_speed] = [[T::zero(); N]; 2];
+        for (k, slopes) in self.tree.passive_slopes(v) {
+            set(&mut by_place, k, slopes[0]);
+            set(&mut by_speed, k, slopes[1]);
+        }
+        [by_place, by_speed]
+    }
 }
 
 /// Three numbers for each of N links.

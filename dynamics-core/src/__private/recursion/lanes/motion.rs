@@ -50,9 +50,8 @@ impl<T: Scalar, const N: usize> Placed<T, N> {
 }
 
 impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
-    /// The velocities for joint speeds `v`.
-    pub(super) fn velocities(&self, placed: &Placed<T, N>, v: &[T; N]) -> TwistsInLanes<T, N> {
-        let mut velocities = TwistsInLanes::zero();
+    /// Writes the velocities for joint speeds `v`.
+    pub(super) fn velocities(&self, placed: &Placed<T, N>, v: &[T; N], velocities: &mut TwistsInLanes<T, N>) {
         let mut last = (N, Twist::zero());
         for (k, offset) in placed.offsets.iter().enumerate() {
             let parent = match self.parent(k) {
@@ -64,17 +63,16 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
             velocities.set(k, velocity);
             last = (k, velocity);
         }
-        velocities
     }
 
-    /// The velocities, and the accelerations of the links' origins, less gravity, for joint accelerations `a`.
+    /// Writes the velocities, and the accelerations of the links' origins, less gravity, for joint accelerations `a`.
     pub(super) fn motions(
         &self,
         placed: &Placed<T, N>,
         v: &[T; N],
         a: &[T; N],
-    ) -> (TwistsInLanes<T, N>, TwistsInLanes<T, N>) {
-        let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
+        [velocities, accelerations]: [&mut TwistsInLanes<T, N>; 2],
+    ) {
         let base = (Twist::zero(), Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) });
         let mut last = (N, base);
         for (k, offset) in placed.offsets.iter().enumerate() {
@@ -95,6 +93,5 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
             accelerations.set(k, acceleration);
             last = (k, (velocity, acceleration));
         }
-        (velocities, accelerations)
     }
 }

@@ -6,9 +6,9 @@ use super::bodies::WrenchesInLanes;
 use super::motion::TwistsInLanes;
 use super::place::Placed;
 use super::{InLanes, Vectors, set};
+use crate::__private::in_place::{blank, mirror, put};
 use crate::__private::recursion::vector::Vector;
-use crate::__private::solve::mirror;
-use crate::product::{COLUMNS, STRIP, multiply, strips};
+use crate::product::{COLUMNS, STRIP, multiply, products, strips};
 use crate::scalar::Scalar;
 
 /// A matrix, by columns.
@@ -53,84 +53,112 @@ impl<'r, T: Scalar, const N: usize> InLanes<'r, T, N> {
 }
 
 impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
-    /// Writes `M`, both halves.
-    pub(super) fn write_mass_matrix(&self, m: &mut Square<T, N>) {
+    /// `M`, both halves, with these armatures.
+    #[inline(never)]
+    #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    pub(super) fn mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
+        let mut m = blank();
         let mut rows = with_last([[T::zero(); N]; 6], self.rows.both().1);
-        let (blocks, rest) = m.as_chunks_mut::<COLUMNS>();
-        for (block, columns) in blocks.iter_mut().enumerate() {
-            self.write_masses(&mut rows, block * COLUMNS, columns);
+        macro_rules! masses_by {
+            ($width:ident, $columns:expr) => {
+                for first in $columns.step_by($width) {
+                    // From their first row on.
+                    let origin = self.placed.origins.at(first);
+                    self.shift(self.rows.both(), origin, &mut rows);
+                    let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
+                    for strip in first / STRIP..strips(N) {
+                        let sums: [[T; STRIP]; $width] = products(&rows, row_in(&units), 0..6, strip);
+                        put!(m: [[_; N]; N], first, strip, sums);
+                    }
+                }
+            };
         }
-        for (k, column) in rest.iter_mut().enumerate() {
-            self.write_masses(&mut rows, N / COLUMNS * COLUMNS + k, core::array::from_mut(column));
+        masses_by!(COLUMNS, 0..N / COLUMNS * COLUMNS);
+        masses_by!(ONE, N / COLUMNS * COLUMNS..N);
+        mirror!(m, N);
+        for (i, j) in self.between_branches() {
+            m[i][j] = T::zero();
+            m[j][i] = T::zero();
         }
-        mirror(m);
-        self.clear_between_branches(m);
+        for (k, armature) in armatures.iter().enumerate() {
+            m[k][k] = m[k][k] + *armature;
+        }
+        m
     }
 
-    /// The same of the columns from `first` on, from their first row on.
-    #[inline(always)]
-    fn write_masses<const W: usize>(&self, rows: &mut [[T; N]; 6], first: usize, columns: &mut [[T; N]; W]) {
-        let origin = self.placed.origins.at(first);
-        self.shift(self.rows.both(), origin, rows);
-        let units: [_; 6] = self.shifted(self.placed.unit_twists(), first, origin);
-        let factors = |k: usize| units.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply(&*rows, factors, |_| 0..6, first / STRIP..strips(N), columns);
-    }
-
-    /// Writes `tr(Ŝ_i (𝕁 t̂_jᵀ + 𝔹 r̂_jᵀ))` for the twists `t` and turns `r` of the changes; `nu` has what their turns
-    /// are multiplied with.
-    pub(super) fn write_changes(&self, changes: &Changes<T, N>, nu: &Vectors<T, N>, m: &mut Square<T, N>) {
+    /// `tr(Ŝ_i (𝕁 t̂_jᵀ + 𝔹 r̂_jᵀ))` for the twists `t` and turns `r` of the changes, `scale` times, and the entries of the
+    /// diagonal; `nu` has what their turns are multiplied with.
+    #[inline(never)]
+    #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    pub(super) fn changes(
+        &self,
+        changes: &Changes<T, N>,
+        nu: &Vectors<T, N>,
+        scale: T,
+        diagonal: &[T],
+    ) -> Square<T, N> {
+        let mut m = blank();
         let mut below = with_last([[T::zero(); N]; 9], nu);
         for (all, force) in below.iter_mut().skip(3).zip(&self.rows.both().1.0) {
             *all = *force;
         }
         let mut above = with_last([[T::zero(); N]; 6], self.placed.unit_twists().1);
-        let (blocks, rest) = m.as_chunks_mut::<COLUMNS>();
-        for (block, columns) in blocks.iter_mut().enumerate() {
-            self.write_columns(changes, [&mut below, &mut above], block * COLUMNS, columns);
+        macro_rules! changes_by {
+            ($width:ident, $columns:expr) => {
+                for first in $columns.step_by($width) {
+                    let origin = self.placed.origins.at(first);
+                    let start = first / STRIP;
+                    // On the diagonal and below it.
+                    self.shift(self.rows.both(), origin, &mut below);
+                    let moving: [[T; $width]; 9] = self.moving(changes, first, origin, scale);
+                    for strip in start..strips(N) {
+                        let sums: [[T; STRIP]; $width] = products(&below, row_in(&moving), 0..9, strip);
+                        put!(m: [[_; N]; N], first, strip, sums);
+                    }
+                    // Above it; what is in the same strips as what is not is computed apart.
+                    self.shift(self.placed.unit_twists(), origin, &mut above);
+                    let mut forcing: [[T; $width]; 6] = self.shifted(changes.wrenches.both(), first, origin);
+                    scale_all(&mut forcing, scale);
+                    for strip in 0..start {
+                        let sums: [[T; STRIP]; $width] = products(&above, row_in(&forcing), 0..6, strip);
+                        put!(m: [[_; N]; N], first, strip, sums);
+                    }
+                    let near = columns_near(&above, &forcing, start * STRIP);
+                    for (j, near) in near.iter().enumerate() {
+                        for (i, value) in near.iter().enumerate().take(first % STRIP + j) {
+                            m[first + j][start * STRIP + i] = *value;
+                        }
+                    }
+                }
+            };
         }
-        for (k, column) in rest.iter_mut().enumerate() {
-            let column = core::array::from_mut(column);
-            self.write_columns(changes, [&mut below, &mut above], N / COLUMNS * COLUMNS + k, column);
+        changes_by!(COLUMNS, 0..N / COLUMNS * COLUMNS);
+        changes_by!(ONE, N / COLUMNS * COLUMNS..N);
+        for (i, j) in self.between_branches() {
+            m[i][j] = T::zero();
+            m[j][i] = T::zero();
         }
-        self.clear_between_branches(m);
+        for (k, entry) in diagonal.iter().enumerate().take(N) {
+            m[k][k] = m[k][k] + *entry;
+        }
+        m
     }
 
-    /// The same of the columns from `first` on.
+    /// The twists and turns of the changes of W joints, `scale` times.
     #[inline(always)]
-    fn write_columns<const W: usize>(
+    fn moving<const W: usize>(
         &self,
         changes: &Changes<T, N>,
-        [below, above]: [&mut [[T; N]]; 2],
         first: usize,
-        columns: &mut [[T; N]; W],
-    ) {
-        let origin = self.placed.origins.at(first);
-        let start = first / STRIP;
-        // On the diagonal and below it.
-        self.shift(self.rows.both(), origin, below);
-        let mut moving: [[T; W]; 9] = self.shifted(changes.twists.both(), first, origin);
+        origin: Vector<T>,
+        scale: T,
+    ) -> [[T; W]; 9] {
+        let mut moving = self.shifted(changes.twists.both(), first, origin);
         for (all, turns) in moving.iter_mut().skip(6).zip(&changes.turns.0) {
             *all = part(turns, first);
         }
-        let factors = |k: usize| moving.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply(&*below, factors, |_| 0..9, start..strips(N), columns);
-        // Above it; what is in the same strips as what is not is computed apart.
-        self.shift(self.placed.unit_twists(), origin, above);
-        let forcing: [_; 6] = self.shifted(changes.wrenches.both(), first, origin);
-        let factors = |k: usize| forcing.get(k).copied().unwrap_or([T::zero(); W]);
-        multiply(&*above, factors, |_| 0..6, 0..start, columns);
-        let mut near = [[T::zero(); COLUMNS]; W];
-        let mut of_near = [[T::zero(); COLUMNS]; 6];
-        for (of_near, row) in of_near.iter_mut().zip(&*above) {
-            *of_near = part(row, start * STRIP);
-        }
-        multiply(&of_near, factors, |_| 0..6, 0..strips(COLUMNS), &mut near);
-        for (j, (column, near)) in columns.iter_mut().zip(&near).enumerate() {
-            for (entry, value) in column.iter_mut().skip(start * STRIP).zip(near).take(first % STRIP + j) {
-                *entry = *value;
-            }
-        }
+        scale_all(&mut moving, scale);
+        moving
     }
 
     /// Writes the moments of wrenches, or the slides of twists, about a common origin into the first three rows: with
@@ -167,25 +195,52 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         columns
     }
 
-    /// Writes zeros for joints of which neither hangs on the other.
-    fn clear_between_branches(&self, m: &mut Square<T, N>) {
-        if (0..N).all(|k| self.robot.parent(k) == k.checked_sub(1)) {
-            return;
-        }
-        for k in 0..N {
+    /// The pairs of joints of which neither hangs on the other.
+    #[inline(always)]
+    fn between_branches(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
+        let is_chain = (0..N).all(|k| self.robot.parent(k) == k.checked_sub(1));
+        (0..if is_chain { 0 } else { N }).flat_map(move |k| {
             let mut on_the_way = self.robot.parent(k);
-            for i in (0..k).rev() {
-                if on_the_way == Some(i) {
-                    on_the_way = self.robot.parent(i);
-                    continue;
+            (0..k).rev().filter_map(move |i| {
+                if on_the_way != Some(i) {
+                    return Some((i, k));
                 }
-                for (column, row) in [(i, k), (k, i)] {
-                    if let Some(entry) = m.get_mut(column).and_then(|column| column.get_mut(row)) {
-                        *entry = T::zero();
-                    }
-                }
-            }
-        }
+                on_the_way = self.robot.parent(i);
+                None
+            })
+        })
+    }
+}
+
+/// One column at a time.
+const ONE: usize = 1;
+
+/// What W columns have in the rows from `start` on.
+#[inline(always)]
+fn columns_near<T: Scalar, const N: usize, const W: usize>(
+    above: &[[T; N]; 6],
+    forcing: &[[T; W]; 6],
+    start: usize,
+) -> [[T; COLUMNS]; W] {
+    let mut near = [[T::zero(); COLUMNS]; W];
+    let mut of_near = [[T::zero(); COLUMNS]; 6];
+    for (of_near, row) in of_near.iter_mut().zip(above) {
+        *of_near = part(row, start);
+    }
+    multiply(&of_near, row_in(forcing), |_| 0..6, 0..strips(COLUMNS), &mut near);
+    near
+}
+
+/// Row `k` of K rows.
+#[inline(always)]
+fn row_in<T: Scalar, const W: usize, const K: usize>(rows: &[[T; W]; K]) -> impl Fn(usize) -> [T; W] {
+    |k| rows.get(k).copied().unwrap_or([T::zero(); W])
+}
+
+#[inline(always)]
+fn scale_all<T: Scalar, const W: usize, const K: usize>(rows: &mut [[T; W]; K], scale: T) {
+    for x in rows.as_flattened_mut() {
+        *x *= scale;
     }
 }
 
