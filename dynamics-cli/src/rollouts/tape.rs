@@ -152,7 +152,7 @@ impl Writer<'_> {
                 self.steps.push(Live { registers, uses, is_pair: true });
                 return;
             }
-            Operation::Each(..) | Operation::Lane(..) => unreachable!("one by one"),
+            Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => unreachable!("one by one"),
         };
         self.release(&operands, &scratch);
         let to = self.fresh();

@@ -96,6 +96,7 @@ impl<'g> Expansion<'g> {
                 ring.product(&known[a], &inverse)?
             }
             Op::Sqrt(a) => ring.root(&known[a])?,
+            Op::Opaque(a) => known[a].clone(),
             Op::Sin(a) => {
                 let angle = known[a].clone();
                 self.sine_and_cosine(&angle)?.0

@@ -120,6 +120,7 @@ fn size_of(op: Op, sizes: &NodeMap<Size>) -> Size {
         Op::Scale(_, a) => Size { symbols: 1 + of(a).symbols, ..of(a) },
         Op::Div(a, b) => Size { symbols: both(a, b), terms: of(a).terms },
         Op::Sqrt(a) => Size { symbols: 1 + of(a).symbols, terms: 1 },
+        Op::Opaque(a) => of(a),
     }
 }
 

@@ -67,6 +67,9 @@ pub(super) trait SideBySide {
 
     /// One of them, by its place.
     fn one(&self, numbers: &str, place: usize) -> String;
+
+    /// The same in a circle, from that at a place on.
+    fn turned(&self, numbers: &str, place: usize) -> String;
 }
 
 /// The text of a method's body, apart from its frame.
@@ -292,6 +295,10 @@ impl<'a> Writer<'a> {
             Operation::Lane(a, lane) => {
                 let a = self.whole(a);
                 join(&[&a], self.side_by_side().one(&a.text, lane), Binding::Atom)
+            }
+            Operation::Turn(a, lane) => {
+                let a = self.whole(a);
+                join(&[&a], self.side_by_side().turned(&a.text, lane), Binding::Atom)
             }
         }
     }

@@ -5,13 +5,15 @@
 //! side. Where a leg is the mirror image of another, some of its axes point the other way; these are turned round,
 //! and their coordinates with them.
 
+use std::cell::RefCell;
+
 use super::gauge::regauge;
 use super::method::{Argument, Inputs};
 use super::normal::{NormalLink, NormalTree};
 use super::rotation::{PlanarTurn, Turn};
 use crate::model::{Drive, Link, Passive, Tree};
 use crate::spatial::{Matrix3, Pose, PseudoInertia, Scalar, Vector3};
-use crate::symbolic::{Expr, Graph, SymbolId};
+use crate::symbolic::{Expr, Graph, NodeId, Op, SymbolId};
 
 /// Branches that are alike, by the links of each in the same order.
 pub type Alike = Vec<Vec<usize>>;
@@ -24,9 +26,109 @@ pub struct Branches<'g> {
     /// The names given to numbers, from `first_name` on.
     values: Vec<Expr<'g>>,
     first_name: u32,
+    /// For each set of branches and each branch the speeds of its joints in the same order.
+    speeds: Vec<Vec<Vec<usize>>>,
+    /// Of nodes, as far as anybody asked.
+    owners: RefCell<Vec<Owner>>,
+}
+
+/// Of which branches an expression is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Owner {
+    /// Of none.
+    Trunk,
+    /// Of one in a set.
+    Branch(usize, usize),
+    /// Of several in one set.
+    Set(usize),
+    /// Of several sets.
+    Several,
+}
+
+impl Owner {
+    fn with(self, other: Self) -> Self {
+        match (self, other) {
+            (Owner::Trunk, owner) | (owner, Owner::Trunk) => owner,
+            (one, other) if one == other => one,
+            (Owner::Branch(one, _) | Owner::Set(one), Owner::Branch(other, _) | Owner::Set(other))
+                if one == other =>
+            {
+                Owner::Set(one)
+            }
+            _ => Owner::Several,
+        }
+    }
+
+    /// Whether it is of more than one branch.
+    fn is_plural(self) -> bool {
+        matches!(self, Owner::Set(_) | Owner::Several)
+    }
 }
 
 impl<'g> Branches<'g> {
+    /// Of which branches a node is. What several of them made together, and nobody takes apart again, is the trunk's: what
+    /// is opaque, and what depends on parameters alone.
+    pub fn owner(&self, graph: &Graph, node: NodeId) -> Owner {
+        let mut owners = self.owners.borrow_mut();
+        for &op in &graph.ops()[owners.len()..] {
+            let id = graph.node(owners.len());
+            let owner = match op {
+                Op::Symbol(symbol) => self.of_symbol(symbol),
+                Op::Opaque(_) => Owner::Trunk,
+                op => op.operands().fold(Owner::Trunk, |owner, operand| owner.with(owners[operand.index()])),
+            };
+            let is_settled = owner.is_plural() && graph.is_parameter_only(id);
+            owners.push(if is_settled { Owner::Trunk } else { owner });
+        }
+        owners[node.index()]
+    }
+
+    fn of_symbol(&self, symbol: SymbolId) -> Owner {
+        let is_of = |branch: &Vec<(SymbolId, bool)>| branch.iter().any(|(known, _)| *known == symbol);
+        let of_set = |(number, set): (usize, &Vec<Vec<(SymbolId, bool)>>)| {
+            set.iter().position(is_of).map(|branch| Owner::Branch(number, branch))
+        };
+        self.sets.iter().enumerate().find_map(of_set).unwrap_or(Owner::Trunk)
+    }
+
+    /// What a joint of the trunk feels, or does, of several branches together: nobody shall ask of which, or all that follows
+    /// from it would be of all of them. The value itself where that is not so.
+    pub fn together(&self, speed: usize, value: Expr<'g>) -> Expr<'g> {
+        match value {
+            Expr::Node { graph, id, .. }
+                if self.joint(speed).is_none() && self.owner(graph, id).is_plural() =>
+            {
+                value.opaque()
+            }
+            _ => value,
+        }
+    }
+
+    /// Whether to compute the entry `(i, k)` of a symmetric matrix of joints rather than `(k, i)`: between branches that are
+    /// alike the same of each and the one that is so many after it, in a circle, so that all of these are one operation.
+    pub fn is_computed(&self, i: usize, k: usize) -> bool {
+        match (self.joint(i), self.joint(k)) {
+            (Some((set, one, place)), Some((other_set, other, other_place)))
+                if set == other_set && one != other =>
+            {
+                let count = self.speeds[set].len();
+                let steps = |from: usize, to: usize| (to + count - from) % count;
+                (steps(one, other), place, one) < (steps(other, one), other_place, other)
+            }
+            _ => i <= k,
+        }
+    }
+
+    /// The set, the branch and the place of the joint with that speed; none if it is of the trunk.
+    fn joint(&self, speed: usize) -> Option<(usize, usize, usize)> {
+        let mut branches = self.speeds.iter().enumerate().flat_map(|(set, speeds)| {
+            speeds.iter().enumerate().map(move |(branch, speeds)| (set, branch, speeds))
+        });
+        branches.find_map(|(set, branch, speeds)| {
+            Some((set, branch, speeds.iter().position(|&known| known == speed)?))
+        })
+    }
+
     /// What a name stands for; none if the symbol is an input.
     pub fn value(&self, symbol: SymbolId) -> Option<Expr<'g>> {
         self.values.get(symbol.0.checked_sub(self.first_name)? as usize).copied()
@@ -152,7 +254,7 @@ pub fn named<'g>(
 ) -> (NormalTree<Expr<'g>>, Branches<'g>) {
     let mut tree = tree.clone();
     let first_name = inputs.symbol(Argument::Tau, inputs.dof).0;
-    let mut branches = Branches { sets: Vec::new(), values: Vec::new(), first_name };
+    let mut branches = Branches { first_name, ..Branches::default() };
     let is_planar = |k: usize| matches!(tree.links[k].turn, Turn::Planar { .. });
     let differ = |set: &Alike| {
         (0..set[0].len())
@@ -161,6 +263,7 @@ pub fn named<'g>(
     let sets: Vec<&Alike> = sets.iter().filter(|set| !differ(set)).collect();
     for set in sets {
         let mut symbols: Vec<Vec<(SymbolId, bool)>> = vec![Vec::new(); set.len()];
+        let mut speeds: Vec<Vec<usize>> = vec![Vec::new(); set.len()];
         for place in 0..set[0].len() {
             let links: Vec<usize> = set.iter().map(|branch| branch[place]).collect();
             let mut numbers: Vec<Vec<Expr<'g>>> = links.iter().map(|&k| numbers(&tree.links[k])).collect();
@@ -177,10 +280,12 @@ pub fn named<'g>(
                     symbols.push((symbol, false));
                 }
             }
-            for ((&k, numbers), symbols) in links.iter().zip(numbers).zip(&mut symbols) {
+            let of_branch = symbols.iter_mut().zip(&mut speeds);
+            for ((&k, numbers), (symbols, speeds)) in links.iter().zip(numbers).zip(of_branch) {
                 let link = &mut tree.links[k];
                 *link = with_numbers(link, &mut numbers.into_iter());
                 let Drive { q, v, ratio, .. } = link.drive;
+                speeds.push(v);
                 let is_turned = ratio.is_negative();
                 symbols.push((inputs.symbol(Argument::Q, q), is_turned));
                 let of_speed = |argument| (inputs.symbol(argument, v), is_turned);
@@ -188,6 +293,7 @@ pub fn named<'g>(
             }
         }
         branches.sets.push(symbols);
+        branches.speeds.push(speeds);
     }
     (tree, branches)
 }

@@ -235,7 +235,7 @@ impl<'g> Derivation<'g> {
             Method::PassiveForces => vec![vector("f", self.passive_forces())],
             Method::InverseDynamics => vec![vector("tau", self.inverse_dynamics(&self.accelerations()))],
             Method::ForwardDynamics => vec![vector("a", self.forward_dynamics().0)],
-            Method::InverseMassMatrix => vec![square("inverse", self.factor().inverse())],
+            Method::InverseMassMatrix => vec![square("inverse", self.inverse(&self.factor()))],
             Method::KineticEnergy => vec![scalar(self.kinetic_energy())],
             Method::PotentialEnergy => vec![scalar(self.potential_energy())],
             Method::ElasticEnergy => vec![scalar(passive::elastic_energy(tree, q))],
@@ -375,17 +375,22 @@ impl<'g> Derivation<'g> {
         }
     }
 
-    fn factor(&self) -> Factor<Expr<'g>> {
+    fn factor(&self) -> Factor<'_, Expr<'g>> {
         let parents = elimination_parents(&self.dynamic.columns, self.inputs.dof, &self.coupled);
-        Factor::of(&self.mass_matrix(), parents)
+        Factor::completing(&self.mass_matrix(), parents, |speed, value| self.branches.together(speed, value))
     }
 
-    fn forward_dynamics(&self) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
+    /// `M⁻¹`
+    fn inverse(&self, factor: &Factor<'_, Expr<'g>>) -> Square<Expr<'g>> {
+        factor.inverse(|i, k| self.branches.is_computed(i, k))
+    }
+
+    fn forward_dynamics(&self) -> (Vec<Expr<'g>>, Factor<'_, Expr<'g>>) {
         self.acceleration(self.bias_forces())
     }
 
     /// `a = M⁻¹ (τ − h)`, and the factors of M.
-    fn acceleration(&self, bias: Vec<Expr<'g>>) -> (Vec<Expr<'g>>, Factor<Expr<'g>>) {
+    fn acceleration(&self, bias: Vec<Expr<'g>>) -> (Vec<Expr<'g>>, Factor<'_, Expr<'g>>) {
         let factor = self.factor();
         (factor.solve(&difference(&self.tau, bias)), factor)
     }
@@ -399,7 +404,7 @@ impl<'g> Derivation<'g> {
         let derivatives = vec![
             square("da_dq", factor.solve_matrix(&negated(dtau_dq))),
             square("da_dv", factor.solve_matrix(&negated(dtau_dv))),
-            square("da_dtau", factor.inverse()),
+            square("da_dtau", self.inverse(&factor)),
         ];
         (a, derivatives)
     }

@@ -11,7 +11,9 @@ use super::composite::Square;
 use crate::spatial::Scalar;
 
 /// The factors of a mass matrix.
-pub struct Factor<S> {
+pub struct Factor<'f, S> {
+    /// What stands for a value in the row of a column, once all that hangs on the column is in it.
+    complete: Box<dyn Fn(usize, S) -> S + 'f>,
     parents: Vec<Option<usize>>,
     /// With which column the branch of each begins.
     roots: Vec<usize>,
@@ -21,9 +23,19 @@ pub struct Factor<S> {
     pub inverse_D: Vec<S>,
 }
 
-impl<S: Scalar> Factor<S> {
+impl<'f, S: Scalar> Factor<'f, S> {
     /// Factors `M`, whose sparsity is that of the tree with these parents.
     pub fn of(M: &Square<S>, parents: Vec<Option<usize>>) -> Self {
+        Self::completing(M, parents, |_, value| value)
+    }
+
+    /// The same, where `complete` may put something else in the place of a value in the row of a column, once all that hangs
+    /// on the column is in it.
+    pub fn completing(
+        M: &Square<S>,
+        parents: Vec<Option<usize>>,
+        complete: impl Fn(usize, S) -> S + 'f,
+    ) -> Self {
         let n = parents.len();
         let roots = roots(&parents);
         let mut H = M.clone();
@@ -33,6 +45,9 @@ impl<S: Scalar> Factor<S> {
         let mut taken: Vec<Square<S>> = (0..n).map(room).collect();
         for k in (0..n).rev() {
             let branch = roots[k];
+            for i in std::iter::once(k).chain(ancestors(&parents, k)) {
+                H[k][i] = complete(k, H[k][i]);
+            }
             inverse_D[k] = S::one() / H[k][k];
             for i in ancestors(&parents, k) {
                 let l = H[k][i] * inverse_D[k];
@@ -55,7 +70,7 @@ impl<S: Scalar> Factor<S> {
                 }
             }
         }
-        Self { parents, roots, L: H, inverse_D }
+        Self { complete: Box::new(complete), parents, roots, L: H, inverse_D }
     }
 
     /// `M⁻¹ b`
@@ -65,6 +80,7 @@ impl<S: Scalar> Factor<S> {
         let mut taken = vec![vec![S::zero(); n]; n];
         for i in (0..n).rev() {
             let branch = self.roots[i];
+            x[i] = (self.complete)(i, x[i]);
             for j in ancestors(&self.parents, i) {
                 match self.roots[j] == branch {
                     true => x[j] = x[j] - self.L[i][j] * x[i],
@@ -91,14 +107,14 @@ impl<S: Scalar> Factor<S> {
         x
     }
 
-    /// `M⁻¹`, each half computed once: column `k` is solved only down to row `k`.
-    pub fn inverse(&self) -> Square<S> {
+    /// `M⁻¹`, each entry and its mirror image computed once: `is_computed` says for each row and column which of the two.
+    pub fn inverse(&self, is_computed: impl Fn(usize, usize) -> bool) -> Square<S> {
         let n = self.parents.len();
         let mut inverse = vec![vec![S::zero(); n]; n];
         for k in 0..n {
             let mut unit = vec![S::zero(); n];
             unit[k] = S::one();
-            for (i, x) in self.solve(&unit).into_iter().enumerate().take(k + 1) {
+            for (i, x) in self.solve(&unit).into_iter().enumerate().filter(|&(i, _)| is_computed(i, k)) {
                 (inverse[i][k], inverse[k][i]) = (x, x);
             }
         }

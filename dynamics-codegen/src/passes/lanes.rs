@@ -3,19 +3,23 @@
 //! What renames one branch into another takes expressions into expressions. Where that takes a node of the first branch
 //! to a node that is needed as well, in each of the others, all of these are one operation on numbers side by side.
 //! Equal expressions are one node, so nothing is searched for, and what is not there is computed alone.
+//!
+//! What couples two branches goes into what couples others if all branches are renamed at once, each into the one that is
+//! so many after it, in a circle: the first with the second, the second with the third, the last with the first are one
+//! operation, on the numbers of all branches and on the same numbers once round.
 
 use rustc_hash::FxHashMap;
 
 use super::schedule::nodes_of;
-use crate::mechanics::branches::Branches;
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, Substitution, SymbolId};
+use crate::mechanics::branches::{Branches, Owner};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, SymbolId, Walk, rebuilt};
 
 /// Where a node is computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// The node of the first branch, for which it is computed.
+    /// The node for which it is computed: of the first branch, or of it and others.
     pub(super) node: NodeId,
-    /// The number of the branch.
+    /// How many branches after those of that node.
     pub(super) lane: usize,
     /// Whether it is minus what is computed there.
     pub(super) negative: bool,
@@ -25,29 +29,8 @@ pub(super) struct Place {
 pub(super) struct Layout<'g> {
     places: NodeMap<Place>,
     has_lanes: bool,
-    /// For each node of a first branch what stands in its place in all of them.
+    /// For each node of the first branch, or of several, what stands in its place in all of them.
     rows: NodeMap<Vec<Expr<'g>>>,
-}
-
-/// Of which branch a node is.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Owner {
-    /// Of none.
-    Trunk,
-    /// Of one in a set.
-    Branch(usize, usize),
-    /// Of several.
-    Several,
-}
-
-impl Owner {
-    fn with(self, other: Self) -> Self {
-        match (self, other) {
-            (Owner::Trunk, owner) | (owner, Owner::Trunk) => owner,
-            (one, other) if one == other => one,
-            _ => Owner::Several,
-        }
-    }
 }
 
 impl<'g> Layout<'g> {
@@ -65,31 +48,28 @@ impl<'g> Layout<'g> {
     ) -> Self {
         let mut layout = Self::one_by_one(graph);
         let (needed, is_needed) = needed(graph, results, &is_at_hand);
-        let owners = owners(graph, branches);
         for (number, set) in branches.sets.iter().enumerate() {
             let mut renamings: Vec<_> =
-                set[1..].iter().map(|branch| renaming(graph, &set[0], branch)).collect();
+                (1..set.len()).map(|lane| Renaming::of(graph, branches, set, lane)).collect();
             for &id in &needed {
-                if owners[id.index()] != Owner::Branch(number, 0) {
+                let is_leaf = is_at_hand(id) || matches!(graph.op(id), Op::Symbol(_));
+                let begins = match branches.owner(graph, id) {
+                    Owner::Branch(own, branch) => own == number && (branch == 0 || is_leaf),
+                    Owner::Set(own) => own == number && layout.place(id).is_none(),
+                    Owner::Trunk | Owner::Several => false,
+                };
+                if !begins {
                     continue;
                 }
-                let own = Expr::of_node(graph, id);
-                let is_leaf = is_at_hand(id) || matches!(graph.op(id), Op::Symbol(_));
-                let images: Vec<Expr<'g>> =
-                    renamings.iter_mut().map(|renaming| renaming.apply(own)).collect();
+                let images = renamings.iter_mut().map(|renaming| renaming.image(id));
+                let row: Vec<Expr<'g>> = std::iter::once(Expr::of_node(graph, id)).chain(images).collect();
                 let is_there =
                     |image: &Expr<'g>| matches!(*image, Expr::Node { id, .. } if is_needed.contains(id));
-                if !images.iter().all(is_there) {
+                if !row.iter().all(is_there) {
                     continue;
                 }
-                let row: Vec<Expr<'g>> = std::iter::once(own).chain(images).collect();
                 if !is_leaf {
-                    layout.has_lanes = true;
-                    for (lane, image) in row.iter().enumerate() {
-                        if let Expr::Node { id: image, negative, .. } = *image {
-                            layout.places.insert(image, Place { node: id, lane, negative });
-                        }
-                    }
+                    layout.lay(id, &row);
                 }
                 layout.rows.insert(id, row);
             }
@@ -97,7 +77,20 @@ impl<'g> Layout<'g> {
         layout
     }
 
-    /// How many operations there are, several side by side being one, and what is taken out of these being one as well.
+    /// Says of each expression of a row that it is computed beside the first one, which is that of `node`.
+    fn lay(&mut self, node: NodeId, row: &[Expr<'g>]) {
+        self.has_lanes = true;
+        for (lane, image) in row.iter().enumerate() {
+            if let Expr::Node { id, negative, .. } = *image
+                && self.place(id).is_none()
+            {
+                self.places.insert(id, Place { node, lane, negative });
+            }
+        }
+    }
+
+    /// How many operations there are, several side by side being one, and what is taken out of these, or read in another order,
+    /// being one as well.
     pub(super) fn operations(
         &self,
         graph: &Graph,
@@ -110,7 +103,8 @@ impl<'g> Layout<'g> {
         // What is read, and whether by one alone.
         let mut stack: Vec<(NodeId, bool)> = nodes_of(results).into_iter().map(|id| (id, true)).collect();
         while let Some((id, is_alone)) = stack.pop() {
-            if is_alone && self.place(id).is_some() && !taken.contains(id) {
+            let is_moved = self.place(id).is_some_and(|place| is_alone || place.lane > 0);
+            if is_moved && !taken.contains(id) {
                 taken.insert(id, ());
                 count += 1;
             }
@@ -123,7 +117,7 @@ impl<'g> Layout<'g> {
             if is_free(id) || matches!(op, Op::Constant(_) | Op::Symbol(_)) {
                 continue;
             }
-            count += usize::from(!matches!(op, Op::Sin(_) | Op::Cos(_)));
+            count += usize::from(!matches!(op, Op::Sin(_) | Op::Cos(_) | Op::Opaque(_)));
             let is_alone = self.lanes(id) == 1;
             stack.extend(op.operands().map(|operand| (operand, is_alone)));
         }
@@ -145,6 +139,11 @@ impl<'g> Layout<'g> {
         self.has_lanes
     }
 
+    /// Whether so many numbers are computed for a node, and it is the first of them.
+    pub(super) fn is_first_of(&self, node: NodeId, lanes: usize) -> bool {
+        self.lanes(node) == lanes && self.place(node).is_none_or(|place| place.lane == 0)
+    }
+
     /// How many numbers are computed for a node.
     pub(super) fn lanes(&self, node: NodeId) -> usize {
         match self.place(node) {
@@ -159,18 +158,43 @@ impl<'g> Layout<'g> {
     }
 }
 
-/// From what is of one branch to what is of another.
-fn renaming<'g>(
+/// From what is of each branch to what is of the one that is so many after it, in a circle.
+struct Renaming<'b, 'g> {
     graph: &'g Graph,
-    one: &[(SymbolId, bool)],
-    other: &[(SymbolId, bool)],
-) -> Substitution<'g, impl Fn(SymbolId) -> Option<Expr<'g>>> {
-    let pair = |(&(from, minus), &(to, also_minus)): (&(SymbolId, bool), &(SymbolId, bool))| {
-        let symbol = graph.variable(to);
-        (from, if minus == also_minus { symbol } else { -symbol })
-    };
-    let names: FxHashMap<SymbolId, Expr<'g>> = one.iter().zip(other).map(pair).collect();
-    Substitution::new(graph, move |symbol| names.get(&symbol).copied())
+    branches: &'b Branches<'g>,
+    names: FxHashMap<SymbolId, Expr<'g>>,
+    images: NodeMap<Expr<'g>>,
+}
+
+impl<'b, 'g> Renaming<'b, 'g> {
+    fn of(graph: &'g Graph, branches: &'b Branches<'g>, set: &[Vec<(SymbolId, bool)>], steps: usize) -> Self {
+        let pair = |(&(from, minus), &(to, also_minus)): (&(SymbolId, bool), &(SymbolId, bool))| {
+            let symbol = graph.variable(to);
+            (from, if minus == also_minus { symbol } else { -symbol })
+        };
+        let others = set.iter().cycle().skip(steps);
+        let names = set.iter().zip(others).flat_map(|(one, other)| one.iter().zip(other).map(pair)).collect();
+        Self { graph, branches, names, images: NodeMap::new(graph) }
+    }
+
+    /// What a node becomes.
+    fn image(&mut self, node: NodeId) -> Expr<'g> {
+        let Self { graph, branches, .. } = *self;
+        let stays = |id: NodeId| branches.owner(graph, id) == Owner::Trunk;
+        let mut walk = Walk::to(node);
+        while let Some(id) = walk.next(graph, |id| self.images.contains(id) || stays(id)) {
+            let of =
+                |operand| self.images.get(operand).copied().unwrap_or_else(|| Expr::of_node(graph, operand));
+            let image = match graph.op(id) {
+                Op::Symbol(symbol) => {
+                    self.names.get(&symbol).copied().unwrap_or_else(|| Expr::of_node(graph, id))
+                }
+                _ => rebuilt(graph, id, of),
+            };
+            self.images.insert(id, image);
+        }
+        self.images[node]
+    }
 }
 
 /// The nodes that results need, operands first.
@@ -194,29 +218,4 @@ fn needed(
     }
     found.sort_unstable_by_key(|id| id.index());
     (found, known)
-}
-
-/// Of which branch each node is.
-fn owners(graph: &Graph, branches: &Branches<'_>) -> Vec<Owner> {
-    let mut of_symbols: Vec<Owner> = Vec::new();
-    for (number, set) in branches.sets.iter().enumerate() {
-        for (branch, symbols) in set.iter().enumerate() {
-            for &(symbol, _) in symbols {
-                let place = symbol.0 as usize;
-                if of_symbols.len() <= place {
-                    of_symbols.resize(place + 1, Owner::Trunk);
-                }
-                of_symbols[place] = Owner::Branch(number, branch);
-            }
-        }
-    }
-    let mut owners: Vec<Owner> = Vec::with_capacity(graph.len());
-    for &op in graph.ops().iter() {
-        let owner = match op {
-            Op::Symbol(symbol) => of_symbols.get(symbol.0 as usize).copied().unwrap_or(Owner::Trunk),
-            op => op.operands().fold(Owner::Trunk, |owner, operand| owner.with(owners[operand.index()])),
-        };
-        owners.push(owner);
-    }
-    owners
 }

@@ -28,7 +28,7 @@ impl Program {
                 Operation::Div(..) => QUOTIENT,
                 Operation::Sqrt(..) => ROOT,
                 Operation::SinCos(..) => SINE_AND_COSINE,
-                Operation::Each(..) | Operation::Lane(..) => 0,
+                Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => 0,
             };
             let start = step.operation.operands().map(|operand| known_at(&ready, operand.source)).max();
             ready.push(start.unwrap_or(0) + own);
@@ -41,7 +41,7 @@ impl Program {
     pub fn instructions(&self) -> u32 {
         let instructions = |operation| match operation {
             Operation::SinCos(..) => INSTRUCTIONS_OF_SINE_AND_COSINE,
-            Operation::Each(..) | Operation::Lane(..) => 0,
+            Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => 0,
             _ => 1,
         };
         self.steps.iter().map(|step| instructions(step.operation)).sum()

@@ -5,6 +5,7 @@
 //! the base.
 
 use super::{Cost, Program};
+use crate::mechanics::branches::alike;
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
 use crate::mechanics::equations::{Block, Method, Trait};
@@ -80,6 +81,8 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
+    /// How many joints there are if branches that are alike count as one; all of them where none are computed side by side.
+    unlike: usize,
     /// Whether the mass matrix is more than the tree's, so that it must be factored.
     must_factor: bool,
 }
@@ -97,7 +100,18 @@ impl Plans {
         let is_plain = model.tree.terms.is_empty();
         let suits_lanes = run_time == RunTime::Core && is_plain && suits_lanes(links);
         let must_factor = !model.tree.terms.kinetic.is_empty();
-        Self { frames: model.tree.frames.len(), frame_joints, parents, ancestors, suits_lanes, must_factor }
+        let sets = if run_time == RunTime::Core && is_plain { alike(&model.tree) } else { vec![] };
+        let repeated: usize = sets.iter().map(|set| set[1..].concat().len()).sum();
+        let unlike = parents.len() - repeated;
+        Self {
+            unlike,
+            frames: model.tree.frames.len(),
+            frame_joints,
+            parents,
+            ancestors,
+            suits_lanes,
+            must_factor,
+        }
     }
 
     pub(super) fn form(&self, method: Method) -> Form {
@@ -115,7 +129,8 @@ impl Plans {
             },
             _ if too_long => Form::Table,
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives
-                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE =>
+                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE
+                    && (self.unlike > 10 || self.unlike == self.ancestors.len()) =>
             {
                 Form::Loops
             }

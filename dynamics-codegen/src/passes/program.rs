@@ -58,6 +58,8 @@ pub enum Operation {
     Each(usize),
     /// One of several numbers side by side, by its place.
     Lane(Operand, usize),
+    /// The same numbers side by side, in a circle, from that at the place on.
+    Turn(Operand, usize),
 }
 
 impl Operation {
@@ -71,6 +73,7 @@ impl Operation {
             Operation::Sqrt(a) => Operation::Sqrt(f(a)),
             Operation::SinCos(a) => Operation::SinCos(f(a)),
             Operation::Lane(a, lane) => Operation::Lane(f(a), lane),
+            Operation::Turn(a, lane) => Operation::Turn(f(a), lane),
             Operation::Each(_) => self,
         }
     }
@@ -80,7 +83,9 @@ impl Operation {
         Operands(match *self {
             Operation::Add(a, b) | Operation::Mul(a, b) | Operation::Div(a, b) => [Some(a), Some(b), None],
             Operation::MulAdd(a, b, c) => [Some(a), Some(b), Some(c)],
-            Operation::Sqrt(a) | Operation::SinCos(a) | Operation::Lane(a, _) => [Some(a), None, None],
+            Operation::Sqrt(a) | Operation::SinCos(a) | Operation::Lane(a, _) | Operation::Turn(a, _) => {
+                [Some(a), None, None]
+            }
             Operation::Each(_) => [None; 3],
         })
     }
@@ -165,7 +170,7 @@ impl Program {
                 Operation::Div(..) => cost.divisions += 1,
                 Operation::Sqrt(..) => cost.square_roots += 1,
                 Operation::SinCos(..) => cost.sines_and_cosines += 1,
-                Operation::Each(..) | Operation::Lane(..) => {}
+                Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => {}
             }
         }
         cost
@@ -204,6 +209,9 @@ impl Program {
                     self.rows[row].iter().map(|&operand| of(&became, operand, 0)).collect()
                 }
                 Operation::Lane(operand, lane) => vec![of(&became, operand, lane)],
+                Operation::Turn(operand, first) => {
+                    (0..step.lanes).map(|k| of(&became, operand, (first + k) % step.lanes)).collect()
+                }
                 operation => (0..step.lanes)
                     .map(|lane| {
                         let operation = operation.mapped(|operand| of(&became, operand, lane));
@@ -243,7 +251,7 @@ impl Program {
                 Operation::Div(a, b) => (of(a) / of(b), 0.0),
                 Operation::Sqrt(a) => (of(a).sqrt(), 0.0),
                 Operation::SinCos(a) => of(a).sin_cos(),
-                Operation::Each(_) | Operation::Lane(..) => unreachable!("one by one"),
+                Operation::Each(_) | Operation::Lane(..) | Operation::Turn(..) => unreachable!("one by one"),
             };
             values.push(value);
         }

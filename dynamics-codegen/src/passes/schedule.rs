@@ -36,6 +36,8 @@ pub(super) fn schedule_in<'g>(
         nodes,
         sines: FxHashMap::default(),
         laid: FxHashMap::default(),
+        taken: FxHashMap::default(),
+        turned: FxHashMap::default(),
         steps: Vec::new(),
         rows: Vec::new(),
     };
@@ -64,7 +66,8 @@ pub(super) fn arithmetic(graph: &Graph, results: &[Expr<'_>], is_free: impl Fn(N
             continue;
         }
         let op = graph.op(id);
-        count += usize::from(!matches!(op, Op::Constant(_) | Op::Symbol(_) | Op::Sin(_) | Op::Cos(_)));
+        let is_free = matches!(op, Op::Constant(_) | Op::Symbol(_) | Op::Sin(_) | Op::Cos(_) | Op::Opaque(_));
+        count += usize::from(!is_free);
         for operand in op.operands() {
             stack.push(operand);
         }
@@ -135,8 +138,8 @@ fn live(
         let is_sum = matches!(op, Op::Add(..) | Op::Sub(..));
         let mut depth = 0;
         for operand in op.operands() {
+            let is_alike = layout.is_first_of(operand, layout.lanes(id));
             let operand = layout.representative(operand);
-            let is_alike = layout.lanes(operand) == layout.lanes(id);
             // What is at hand has operands that nobody needs.
             if let Some(operand) = nodes.get_mut(operand) {
                 operand.read_by_sum |= is_sum && is_alike;
@@ -182,8 +185,11 @@ struct Builder<'a, 'g> {
     layout: &'a Layout<'g>,
     at_hand: &'a dyn Fn(NodeId) -> Option<Operand>,
     nodes: NodeMap<Live>,
-    /// The steps that lay inputs of branches side by side, and take results apart: by the node, and its lane.
-    laid: FxHashMap<(NodeId, Option<usize>), usize>,
+    /// The steps that lay inputs of branches side by side, by the node; those that take one number out of several, and those
+    /// that begin with another one, by its place.
+    laid: FxHashMap<NodeId, usize>,
+    taken: FxHashMap<(NodeId, usize), usize>,
+    turned: FxHashMap<(NodeId, usize), usize>,
     rows: Vec<Vec<Operand>>,
     /// The step that turns an angle into its sine and cosine.
     sines: FxHashMap<NodeId, usize>,
@@ -224,6 +230,13 @@ impl<'g> Builder<'_, 'g> {
                 let a = self.operand(a, lanes);
                 self.push(Operation::Sqrt(a), lanes)
             }
+            Op::Opaque(a) => {
+                let made = Some(self.operand(a, lanes));
+                if let Some(node) = self.nodes.get_mut(id) {
+                    node.made = made;
+                }
+                return;
+            }
             Op::Sin(a) => Source::Sin(self.sin_cos(a, lanes)),
             Op::Cos(a) => Source::Cos(self.sin_cos(a, lanes)),
         };
@@ -260,32 +273,37 @@ impl<'g> Builder<'_, 'g> {
         match place {
             None if lanes > 1 && self.layout.row(id).is_some() => self.row(id, lanes),
             None => made.expect("a node is made before it is read"),
-            Some(_) if lanes > 1 => made.expect("a node is made before it is read"),
-            Some(Place { node, lane, negative }) => {
-                let made = made.expect("a node is made before it is read");
-                let step = match self.laid.get(&(node, Some(lane))) {
-                    Some(&step) => step,
-                    None => {
-                        self.push(Operation::Lane(Operand { negative: false, ..made }, lane), 1);
-                        self.laid.insert((node, Some(lane)), self.steps.len() - 1);
-                        self.steps.len() - 1
-                    }
-                };
-                Operand { source: Source::Step(step), negative: negative != made.negative }
-            }
+            Some(Place { lane: 0, .. }) if lanes > 1 => made.expect("a node is made before it is read"),
+            Some(place) => self.moved(place, made.expect("a node is made before it is read"), lanes),
         }
+    }
+
+    /// A node that is computed beside others: alone, or with those that come after it.
+    fn moved(&mut self, Place { node, lane, negative }: Place, made: Operand, lanes: usize) -> Operand {
+        let known = if lanes > 1 { &self.turned } else { &self.taken };
+        let step = known.get(&(node, lane)).copied().unwrap_or_else(|| {
+            let numbers = Operand { negative: false, ..made };
+            let (known, operation) = match lanes {
+                1 => (&mut self.taken, Operation::Lane(numbers, lane)),
+                _ => (&mut self.turned, Operation::Turn(numbers, lane)),
+            };
+            known.insert((node, lane), self.steps.len());
+            self.push(operation, lanes);
+            self.steps.len() - 1
+        });
+        Operand { source: Source::Step(step), negative: negative != made.negative }
     }
 
     /// What stands in the place of a node in all branches, side by side.
     fn row(&mut self, id: NodeId, lanes: usize) -> Operand {
-        let step = match self.laid.get(&(id, None)) {
+        let step = match self.laid.get(&id) {
             Some(&step) => step,
             None => {
                 let row = self.layout.row(id).unwrap_or_default();
                 let operands = row.iter().map(|&expr| self.of_leaf(expr)).collect();
                 self.rows.push(operands);
                 self.push(Operation::Each(self.rows.len() - 1), lanes);
-                self.laid.insert((id, None), self.steps.len() - 1);
+                self.laid.insert(id, self.steps.len() - 1);
                 self.steps.len() - 1
             }
         };
@@ -320,7 +338,7 @@ impl<'g> Builder<'_, 'g> {
     fn fused(&mut self, a: NodeId, b: NodeId, lanes: usize) -> Option<(NodeId, NodeId)> {
         let can_fuse = |id: NodeId| {
             let own = self.layout.representative(id);
-            self.nodes.get(own).is_some_and(|node| node.can_fuse) && self.layout.lanes(id) == lanes
+            self.nodes.get(own).is_some_and(|node| node.can_fuse) && self.layout.is_first_of(id, lanes)
         };
         let depth = |id: NodeId| self.nodes[self.layout.representative(id)].depth;
         let (product, other) = match (can_fuse(a), can_fuse(b)) {

@@ -280,6 +280,7 @@ impl<'g> Flattened<'g> {
             Some(Op::Sin(a)) => of(a).sin(),
             Some(Op::Cos(a)) => of(a).cos(),
             Some(Op::Sqrt(a)) => of(a).sqrt().expect("a root that was made before"),
+            Some(Op::Opaque(a)) => of(a).opaque(),
             _ => Expr::of_node(self.graph, self.origins[atom.index()].node),
         }
     }

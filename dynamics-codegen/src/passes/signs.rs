@@ -21,7 +21,7 @@ fn leading_minus(program: &Program) -> Vec<bool> {
             Operation::Add(a, b) => minus(a) && minus(b),
             Operation::Mul(a, b) | Operation::Div(a, b) => minus(a) != minus(b),
             Operation::MulAdd(a, b, c) => (minus(a) != minus(b)) && minus(c),
-            Operation::Lane(a, _) => minus(a),
+            Operation::Lane(a, _) | Operation::Turn(a, _) => minus(a),
             Operation::Sqrt(_) | Operation::SinCos(_) | Operation::Each(_) => false,
         };
     }
@@ -159,6 +159,7 @@ fn turned(operation: Operation, turn: bool) -> Operation {
             Operation::MulAdd(a, b, sign(c))
         }
         Operation::Lane(a, lane) => Operation::Lane(sign(a), lane),
+        Operation::Turn(a, lane) => Operation::Turn(sign(a), lane),
         Operation::Sqrt(_) | Operation::SinCos(_) | Operation::Each(_) => operation,
     }
 }

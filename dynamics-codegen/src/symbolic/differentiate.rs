@@ -50,6 +50,7 @@ impl<'g> Differentiator<'g> {
             Op::Sqrt(a) => d(a) / (Expr::Constant(Number::integer(2)) * e(id)),
             Op::Sin(a) => e(a).cos() * d(a),
             Op::Cos(a) => -(e(a).sin() * d(a)),
+            Op::Opaque(a) => d(a),
         }
     }
 }

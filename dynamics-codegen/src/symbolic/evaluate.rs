@@ -47,6 +47,7 @@ impl<'g, R: Real, F: Fn(SymbolId) -> R> Evaluator<'g, F, R> {
             Op::Sqrt(a) => self.values[a].sqrt(),
             Op::Sin(a) => self.values[a].sin(),
             Op::Cos(a) => self.values[a].cos(),
+            Op::Opaque(a) => self.values[a],
         }
     }
 }

@@ -85,6 +85,16 @@ impl<'g> Expr<'g> {
         }
     }
 
+    /// `self`, whatever it is made of.
+    pub fn opaque(self) -> Self {
+        match self {
+            Constant(_) => self,
+            Node { graph, id, negative } => {
+                Self::positive(graph, graph.intern(Op::Opaque(id))).negate_if(negative)
+            }
+        }
+    }
+
     /// `self / divisor`; by the constant zero there is none.
     pub fn checked_div(self, divisor: Self) -> Option<Self> {
         if self.is_zero() && !divisor.is_zero() {

@@ -48,6 +48,8 @@ pub enum Op {
     Sin(NodeId),
     /// `cos a`
     Cos(NodeId),
+    /// `a`, whatever that is made of: whoever renames what expressions are made of leaves it as it is.
+    Opaque(NodeId),
 }
 
 impl Op {
@@ -56,7 +58,7 @@ impl Op {
         let (first, second) = match self {
             Op::Constant(_) | Op::Symbol(_) => (None, None),
             Op::Add(a, b) | Op::Sub(a, b) | Op::Mul(a, b) | Op::Div(a, b) => (Some(a), Some(b)),
-            Op::Scale(_, a) | Op::Sqrt(a) | Op::Sin(a) | Op::Cos(a) => (Some(a), None),
+            Op::Scale(_, a) | Op::Sqrt(a) | Op::Sin(a) | Op::Cos(a) | Op::Opaque(a) => (Some(a), None),
         };
         Operands { first, second }
     }

@@ -57,5 +57,6 @@ pub fn rebuilt<'g>(graph: &'g Graph, id: NodeId, of: impl Fn(NodeId) -> Expr<'g>
         Op::Sqrt(a) => of(a).sqrt().unwrap_or_else(same),
         Op::Sin(a) => of(a).sin(),
         Op::Cos(a) => of(a).cos(),
+        Op::Opaque(a) => of(a).opaque(),
     }
 }

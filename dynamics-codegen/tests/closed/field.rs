@@ -290,7 +290,7 @@ impl Point {
                     values.push(self.sine_and_cosine(&of(a)?)?);
                     continue;
                 }
-                Operation::Each(..) | Operation::Lane(..) => unreachable!("one by one"),
+                Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => unreachable!("one by one"),
             };
             values.push([value.clone(), value]);
         }

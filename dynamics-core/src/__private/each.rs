@@ -28,6 +28,15 @@ pub fn each_of<T: Scalar, const N: usize>(values: [f64; N]) -> Each<T, N> {
     Each(each)
 }
 
+impl<T: Copy, const N: usize> Each<T, N> {
+    /// The same numbers in a circle, from that at `FIRST` on.
+    #[inline(always)]
+    pub fn turned<const FIRST: usize>(self) -> Self {
+        // Not `rotate_left`, which goes through memory.
+        Self(core::array::from_fn(|k| self.0[(FIRST + k) % N]))
+    }
+}
+
 macro_rules! operator {
     ($trait:ident $method:ident $assign:ident $assigning:ident) => {
         impl<T: Scalar, const N: usize> $trait for Each<T, N> {

@@ -141,6 +141,10 @@ impl SideBySide for Lanes {
     fn one(&self, numbers: &str, place: usize) -> String {
         format!("{numbers}.0[{place}]")
     }
+
+    fn turned(&self, numbers: &str, place: usize) -> String {
+        format!("{numbers}.turned::<{place}>()")
+    }
 }
 
 /// A line for each statement, and one for all sines that stand together; `first` is the number of the first statement.
