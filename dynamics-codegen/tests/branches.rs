@@ -1,7 +1,7 @@
 //! Branches that are alike, side by side: what is found, and that it computes what one after the other does.
 
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
-use dynamics_codegen::passes::{Compiled, Plan, Program, RunTime};
+use dynamics_codegen::passes::{Compiled, Operation, Plan, Program, RunTime};
 use dynamics_codegen::spatial::Random;
 use dynamics_codegen::spec::urdf::Urdf;
 use dynamics_codegen::symbolic::Graph;
@@ -123,6 +123,29 @@ fn lanes_of(text: &str, attributes: &str) -> usize {
 fn legs_of_any_number_are_computed_side_by_side() {
     for count in 2..=6 {
         assert_eq!(lanes_of(&legs(count), "#[dynamics(base = free)]"), count);
+    }
+}
+
+#[test]
+fn so_is_what_couples_two_legs_and_all_legs() {
+    for count in 3..=6 {
+        let text = legs(count);
+        let (graph, urdf) = (Graph::new(), Urdf { file: "robot.urdf", text: &text });
+        let spec = match read_urdf("Robot", urdf, "#[dynamics(base = free)]") {
+            Ok((spec, _)) => spec,
+            Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+        };
+        let compiled = match checked(&spec, &graph, RunTime::Core) {
+            Ok((_, compiled)) => compiled,
+            Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+        };
+        for method in [Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
+            let program = program(&compiled, method).expect("it is a straight line");
+            let mut turns = program.steps.iter().filter(|step| matches!(step.operation, Operation::Turn(..)));
+            assert!(turns.any(|step| step.lanes == count), "{method:?} of {count} legs");
+            let (together, alone) = (program.instructions(), program.one_by_one().instructions());
+            assert!(2 * together < alone, "{method:?} of {count} legs: {together} of {alone}");
+        }
     }
 }
 

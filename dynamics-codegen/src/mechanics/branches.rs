@@ -135,8 +135,24 @@ impl<'g> Branches<'g> {
     }
 }
 
+/// The branches of a tree that are alike, and the tree with the axes of their joints turned alike; none if there are no such.
+pub fn of<'g>(tree: &Tree<Expr<'g>>) -> Option<(Tree<Expr<'g>>, Vec<Alike>)> {
+    let mut sets = alike(tree);
+    if sets.is_empty() {
+        return None;
+    }
+    let turned = turned_alike(tree, &sets);
+    let normal = regauge(&turned);
+    let is_planar = |k: usize| matches!(normal.links[k].turn, Turn::Planar { .. });
+    let is_same = |set: &Alike, place: usize| {
+        set.iter().all(|branch| is_planar(branch[place]) == is_planar(set[0][place]))
+    };
+    sets.retain(|set| (0..set[0].len()).all(|place| is_same(set, place)));
+    (!sets.is_empty()).then_some((turned, sets))
+}
+
 /// The branches of a tree that are alike, the largest first: within them none are looked for.
-pub fn alike<S: Scalar>(tree: &Tree<S>) -> Vec<Alike> {
+fn alike<S: Scalar>(tree: &Tree<S>) -> Vec<Alike> {
     let kinds = kinds(tree);
     let children = |parent: Option<usize>| {
         (0..tree.links.len()).filter(move |&k| tree.links[k].parent == parent).collect::<Vec<_>>()
@@ -198,7 +214,7 @@ fn kinds<S: Scalar>(tree: &Tree<S>) -> Vec<Option<usize>> {
 }
 
 /// The same tree, with the axes of joints turned round that point the other way than those of the first branch.
-pub fn turned_alike<'g>(tree: &Tree<Expr<'g>>, sets: &[Alike]) -> Tree<Expr<'g>> {
+fn turned_alike<'g>(tree: &Tree<Expr<'g>>, sets: &[Alike]) -> Tree<Expr<'g>> {
     let mut turned = tree.clone();
     let longest = sets.iter().map(|set| set[0].len()).max().unwrap_or(0);
     let mut normal = regauge(&turned);
@@ -245,7 +261,7 @@ fn turn_round<'g>(tree: &mut Tree<Expr<'g>>, k: usize) {
     }
 }
 
-/// The same tree with names for the numbers in which branches differ; without the sets that differ in more.
+/// The same tree with names for the numbers in which branches differ.
 pub fn named<'g>(
     tree: &NormalTree<Expr<'g>>,
     sets: &[Alike],
@@ -255,12 +271,6 @@ pub fn named<'g>(
     let mut tree = tree.clone();
     let first_name = inputs.symbol(Argument::Tau, inputs.dof).0;
     let mut branches = Branches { first_name, ..Branches::default() };
-    let is_planar = |k: usize| matches!(tree.links[k].turn, Turn::Planar { .. });
-    let differ = |set: &Alike| {
-        (0..set[0].len())
-            .any(|place| set.iter().any(|branch| is_planar(branch[place]) != is_planar(set[0][place])))
-    };
-    let sets: Vec<&Alike> = sets.iter().filter(|set| !differ(set)).collect();
     for set in sets {
         let mut symbols: Vec<Vec<(SymbolId, bool)>> = vec![Vec::new(); set.len()];
         let mut speeds: Vec<Vec<usize>> = vec![Vec::new(); set.len()];

@@ -114,12 +114,8 @@ impl<'g> Derivation<'g> {
 
     /// The derivation of forces in the unit `length` with branches that are alike derived alike, if there are such.
     pub fn alike(&self, model: &Model<'g>, length: Number) -> Option<Self> {
-        let sets = branches::alike(&model.tree);
-        if sets.is_empty() || self.added.is_some() {
-            return None;
-        }
-        let tree = regroup(&regauge(&branches::turned_alike(&model.tree, &sets)));
-        let tree = unit::in_unit(&tree, length);
+        let (turned, sets) = branches::of(&model.tree).filter(|_| self.added.is_none())?;
+        let tree = unit::in_unit(&regroup(&regauge(&turned)), length);
         let (dynamic, branches) = branches::named(&tree, &sets, self.graph, self.inputs);
         let coupling = Coupling::of(&dynamic, self.inputs.dof);
         let v = coupling.spread(&self.inputs.vector(self.graph, Argument::V));

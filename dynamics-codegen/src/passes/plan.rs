@@ -5,7 +5,7 @@
 //! the base.
 
 use super::{Cost, Program};
-use crate::mechanics::branches::alike;
+use crate::mechanics::branches;
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
 use crate::mechanics::equations::{Block, Method, Trait};
@@ -21,6 +21,8 @@ const LONGEST_KINEMATICS: usize = 50_000;
 const LONGEST_STRAIGHT_INVERSE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
+/// The same of one whose branches are computed side by side, those that are alike counted once.
+const LARGEST_STRAIGHT_SOLVE_SIDE_BY_SIDE: usize = 10;
 
 /// The fewest joints whose Coriolis matrix and derivatives are computed in lanes: a straight line is as fast there.
 const FEWEST_IN_LANES: usize = 12;
@@ -100,9 +102,9 @@ impl Plans {
         let is_plain = model.tree.terms.is_empty();
         let suits_lanes = run_time == RunTime::Core && is_plain && suits_lanes(links);
         let must_factor = !model.tree.terms.kinetic.is_empty();
-        let sets = if run_time == RunTime::Core && is_plain { alike(&model.tree) } else { vec![] };
-        let repeated: usize = sets.iter().map(|set| set[1..].concat().len()).sum();
-        let unlike = parents.len() - repeated;
+        let is_side_by_side = run_time == RunTime::Core && is_plain;
+        let sets = branches::of(&model.tree).filter(|_| is_side_by_side).map_or(vec![], |(_, sets)| sets);
+        let unlike = parents.len() - sets.iter().map(|set| set[1..].concat().len()).sum::<usize>();
         Self {
             unlike,
             frames: model.tree.frames.len(),
@@ -129,8 +131,7 @@ impl Plans {
             },
             _ if too_long => Form::Table,
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives
-                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE
-                    && (self.unlike > 10 || self.unlike == self.ancestors.len()) =>
+                if self.ancestors.len() > LARGEST_STRAIGHT_SOLVE && !self.is_solved_side_by_side() =>
             {
                 Form::Loops
             }
@@ -139,6 +140,13 @@ impl Plans {
             }
             _ => Form::StraightLine,
         }
+    }
+
+    /// Whether branches that are alike make a straight line short enough for many right-hand sides: they must be half as
+    /// many joints again.
+    fn is_solved_side_by_side(&self) -> bool {
+        let repeated = self.ancestors.len() - self.unlike;
+        self.unlike <= LARGEST_STRAIGHT_SOLVE_SIDE_BY_SIDE && 2 * repeated >= self.unlike
     }
 
     /// Whether the method solves for many right-hand sides by loops.

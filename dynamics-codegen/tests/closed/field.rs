@@ -237,6 +237,7 @@ impl Point {
             Op::Sqrt(a) => self.root(of(a))?,
             Op::Sin(a) => self.sine_and_cosine(of(a))?[0].clone(),
             Op::Cos(a) => self.sine_and_cosine(of(a))?[1].clone(),
+            Op::Opaque(a) => of(a).clone(),
         })
     }
 

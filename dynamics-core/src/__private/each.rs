@@ -179,6 +179,7 @@ mod tests {
             assert_eq!((sin.0[k], cos.0[k]), x.sin_cos());
         }
         assert!(a.is_finite() && !(a / Each::zero()).is_finite());
+        assert_eq!(a.turned::<1>().0.as_slice(), [&a.0[1..], &a.0[..1]].concat());
         assert_eq!(Each::<T, N>::of(0.3), each(T::of(0.3)));
         assert_eq!(each_of::<T, N>([0.3; N]), each(T::of(0.3)));
     }
