@@ -292,14 +292,8 @@ impl<'a> Writer<'a> {
             }
             Operation::SinCos(_) => unreachable!("written by `sin_cos`"),
             Operation::Each(row) => self.row(row),
-            Operation::Lane(a, lane) => {
-                let a = self.whole(a);
-                join(&[&a], self.side_by_side().one(&a.text, lane), Binding::Atom)
-            }
-            Operation::Turn(a, lane) => {
-                let a = self.whole(a);
-                join(&[&a], self.side_by_side().turned(&a.text, lane), Binding::Atom)
-            }
+            Operation::Lane(a, lane) => self.of_row(a, |words, row| words.one(row, lane)),
+            Operation::Turn(a, lane) => self.of_row(a, |words, row| words.turned(row, lane)),
         }
     }
 
@@ -357,6 +351,13 @@ impl<'a> Writer<'a> {
         let texts: Vec<Text> = row.iter().map(|&operand| self.whole(operand)).collect();
         let numbers: Vec<String> = texts.iter().map(|text| text.text.clone()).collect();
         join(&texts.iter().collect::<Vec<_>>(), self.side_by_side().row(&numbers), Binding::Atom)
+    }
+
+    /// What is said of numbers side by side; minus that of their negatives.
+    fn of_row(&mut self, numbers: Operand, said: impl Fn(&dyn SideBySide, &str) -> String) -> Text {
+        let row = wrap(self.whole(Operand { negative: false, ..numbers }), Binding::Atom);
+        let text = join(&[&row], said(self.side_by_side(), &row.text), Binding::Atom);
+        if numbers.negative { negated(text) } else { text }
     }
 
     fn side_by_side(&self) -> &'a dyn SideBySide {
