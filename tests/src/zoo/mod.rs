@@ -1,5 +1,6 @@
 //! The zoo: every robot with its specification as text, its values, and its compiled forms.
 
+pub mod branches;
 pub mod driven;
 pub mod files;
 pub mod fixtures;
@@ -53,7 +54,8 @@ impl Entry {
 
 /// All robots, small ones first.
 pub fn all() -> Vec<Entry> {
-    let small = [textbook::all(), fixtures::all(), joints::all(), driven::all(), lagrangian::all()];
+    let small =
+        [textbook::all(), fixtures::all(), joints::all(), driven::all(), lagrangian::all(), branches::all()];
     small.into_iter().chain([industrial::all(), files::all()]).flatten().collect()
 }
 
