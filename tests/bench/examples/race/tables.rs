@@ -76,11 +76,11 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
     }
     let _ = writeln!(
         table,
-        "\nOurs is behind a peer in {} of {} cells: {}. It meets its mark in {met}; in {within_chain} others it takes less \
+        "\nOurs is behind a peer in {} of {} cells{}. It meets its mark in {met}; in {within_chain} others it takes less \
          than the longest chain of a call.",
-        behind.len(),
+        if behind.is_empty() { "none".to_owned() } else { behind.len().to_string() },
         rows.len(),
-        if behind.is_empty() { "none".to_owned() } else { behind.join(", ") }
+        if behind.is_empty() { String::new() } else { format!(": {}", behind.join(", ")) }
     );
     table
 }
