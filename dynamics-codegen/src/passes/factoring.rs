@@ -1,7 +1,8 @@
 //! The factors of a mass matrix in a straight line, for the loops that solve with them.
 //!
 //! In loops each row waits for those before it, and what the tree leaves zero is skipped in strips at best. The straight
-//! line of a quadruped's factors has some 700 statements, and its derivatives of forward dynamics take a sixth less.
+//! line of a quadruped's factors had some 700 statements, and took a sixth off its derivatives of forward dynamics, which
+//! are a straight line as a whole by now; it is there for robots of that size without branches that are alike.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
 use super::Program;
