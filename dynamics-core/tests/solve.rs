@@ -103,9 +103,8 @@ fn what_lies_above_the_diagonal_is_not_read() {
         row[i + 1..].fill(f64::NAN);
     }
     let solved = |m: &[[f64; 7]; 7]| {
-        let mut x = [[1.0; 7], [2.0; 7]];
         let factors = factors(m, const { &EliminationTree::of(TREE) });
-        factors.minus_solve(&mut x);
+        let x = factors.minus_solved(&[[1.0; 7], [2.0; 7]]);
         let inverse = factors.inverse();
         (x, inverse)
     };
@@ -115,9 +114,11 @@ fn what_lies_above_the_diagonal_is_not_read() {
 
 #[test]
 fn nothing_to_solve_is_no_error() {
-    let mut no_columns: [[f64; 7]; 0] = [];
-    factors(&[[1.0; 7]; 7], const { &EliminationTree::CHAIN }).minus_solve(&mut no_columns);
-    let mut empty: [[f64; 0]; 3] = [[]; 3];
-    factors(&[], const { &EliminationTree::CHAIN }).minus_solve(&mut empty);
-    assert_eq!(empty, [[0.0; 0]; 3]);
+    let no_columns: [[f64; 7]; 0] = [];
+    assert_eq!(
+        factors(&[[1.0; 7]; 7], const { &EliminationTree::CHAIN }).minus_solved(&no_columns),
+        no_columns
+    );
+    let empty: [[f64; 0]; 3] = [[]; 3];
+    assert_eq!(factors(&[], const { &EliminationTree::CHAIN }).minus_solved(&empty), empty);
 }

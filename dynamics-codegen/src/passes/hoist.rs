@@ -6,7 +6,7 @@ use super::schedule::schedule;
 use super::share::share;
 use crate::mechanics::branches::Branches;
 use crate::mechanics::equations::{Equation, Inputs};
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, Substitution};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, of_symbols};
 
 /// The fields of the prepared companion: parameters that methods read, and what is made of them.
 pub struct Companion<'g> {
@@ -31,7 +31,7 @@ impl<'g> Companion<'g> {
         let nothing = Program { steps: Vec::new(), results: Vec::new(), rows: Vec::new() };
         let mut companion = Self { fields: Vec::new(), preparation: nothing, reads: NodeMap::new(graph) };
         let mut normaliser = Normaliser::new(graph);
-        let mut names = Substitution::new(graph, |symbol| branches?.value(symbol));
+        let mut names = of_symbols(graph, |symbol| branches?.value(symbol));
         for id in hoisted_nodes(graph, equations, table) {
             let value = normaliser.normalise(names.apply(Expr::of_node(graph, id)));
             let operand = companion.operand(graph, value);

@@ -12,7 +12,7 @@ use rustc_hash::FxHashMap;
 
 use super::schedule::nodes_of;
 use crate::mechanics::branches::{Branches, Owner};
-use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, SymbolId, Walk, rebuilt};
+use crate::symbolic::{Expr, Graph, NodeId, NodeMap, Op, Substitution, SymbolId};
 
 /// Where a node is computed.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ impl<'g> Layout<'g> {
         let (needed, is_needed) = needed(graph, results, &is_at_hand);
         for (number, set) in branches.sets.iter().enumerate() {
             let mut renamings: Vec<_> =
-                (1..set.len()).map(|lane| Renaming::of(graph, branches, set, lane)).collect();
+                (1..set.len()).map(|lane| renaming(graph, branches, set, lane)).collect();
             for &id in &needed {
                 let is_leaf = is_at_hand(id) || matches!(graph.op(id), Op::Symbol(_));
                 let begins = match branches.owner(graph, id) {
@@ -61,8 +61,9 @@ impl<'g> Layout<'g> {
                 if !begins {
                     continue;
                 }
-                let images = renamings.iter_mut().map(|renaming| renaming.image(id));
-                let row: Vec<Expr<'g>> = std::iter::once(Expr::of_node(graph, id)).chain(images).collect();
+                let own = Expr::of_node(graph, id);
+                let images = renamings.iter_mut().map(|renaming| renaming.apply(own));
+                let row: Vec<Expr<'g>> = std::iter::once(own).chain(images).collect();
                 let is_there =
                     |image: &Expr<'g>| matches!(*image, Expr::Node { id, .. } if is_needed.contains(id));
                 if !row.iter().all(is_there) {
@@ -158,43 +159,24 @@ impl<'g> Layout<'g> {
     }
 }
 
-/// From what is of each branch to what is of the one that is so many after it, in a circle.
-struct Renaming<'b, 'g> {
+/// From what is of each branch to what is of the one that is so many after it, in a circle; what is the trunk's stays.
+fn renaming<'g>(
     graph: &'g Graph,
-    branches: &'b Branches<'g>,
-    names: FxHashMap<SymbolId, Expr<'g>>,
-    images: NodeMap<Expr<'g>>,
-}
-
-impl<'b, 'g> Renaming<'b, 'g> {
-    fn of(graph: &'g Graph, branches: &'b Branches<'g>, set: &[Vec<(SymbolId, bool)>], steps: usize) -> Self {
-        let pair = |(&(from, minus), &(to, also_minus)): (&(SymbolId, bool), &(SymbolId, bool))| {
-            let symbol = graph.variable(to);
-            (from, if minus == also_minus { symbol } else { -symbol })
-        };
-        let others = set.iter().cycle().skip(steps);
-        let names = set.iter().zip(others).flat_map(|(one, other)| one.iter().zip(other).map(pair)).collect();
-        Self { graph, branches, names, images: NodeMap::new(graph) }
-    }
-
-    /// What a node becomes.
-    fn image(&mut self, node: NodeId) -> Expr<'g> {
-        let Self { graph, branches, .. } = *self;
-        let stays = |id: NodeId| branches.owner(graph, id) == Owner::Trunk;
-        let mut walk = Walk::to(node);
-        while let Some(id) = walk.next(graph, |id| self.images.contains(id) || stays(id)) {
-            let of =
-                |operand| self.images.get(operand).copied().unwrap_or_else(|| Expr::of_node(graph, operand));
-            let image = match graph.op(id) {
-                Op::Symbol(symbol) => {
-                    self.names.get(&symbol).copied().unwrap_or_else(|| Expr::of_node(graph, id))
-                }
-                _ => rebuilt(graph, id, of),
-            };
-            self.images.insert(id, image);
-        }
-        self.images[node]
-    }
+    branches: &Branches<'g>,
+    set: &[Vec<(SymbolId, bool)>],
+    steps: usize,
+) -> Substitution<'g, impl Fn(NodeId) -> Option<Expr<'g>>> {
+    let pair = |(&(from, minus), &(to, also_minus)): (&(SymbolId, bool), &(SymbolId, bool))| {
+        let symbol = graph.variable(to);
+        (from, if minus == also_minus { symbol } else { -symbol })
+    };
+    let others = set.iter().cycle().skip(steps);
+    let names: FxHashMap<_, _> =
+        set.iter().zip(others).flat_map(|(one, other)| one.iter().zip(other).map(pair)).collect();
+    Substitution::new(graph, move |id| match graph.op(id) {
+        Op::Symbol(symbol) => names.get(&symbol).copied(),
+        _ => (branches.owner(graph, id) == Owner::Trunk).then(|| Expr::of_node(graph, id)),
+    })
 }
 
 /// The nodes that results need, operands first.

@@ -19,5 +19,5 @@ pub use graph::{Graph, NodeId, Op, Operands, SymbolId};
 pub use node_map::NodeMap;
 pub use number::Number;
 pub use real::Real;
-pub use substitute::{Substitution, rebuilt};
+pub use substitute::{Substitution, of_symbols, rebuilt};
 pub use walk::Walk;

@@ -1,21 +1,33 @@
-//! Expressions with other things in the place of symbols.
+//! Expressions with other things in the place of symbols, or of more.
 
 use super::{Expr, Graph, NodeId, NodeMap, Op, SymbolId, Walk};
 
-/// Puts expressions in the place of symbols, each node once.
+/// Puts expressions in the place of others, each node once.
 pub struct Substitution<'g, F> {
     graph: &'g Graph,
     values: NodeMap<Expr<'g>>,
     value_of: F,
 }
 
-impl<'g, F: Fn(SymbolId) -> Option<Expr<'g>>> Substitution<'g, F> {
-    /// A substitution that asks `value_of` for what stands in the place of a symbol; none leaves it.
+/// A substitution that asks `value_of` for what stands in the place of a symbol; none leaves it.
+pub fn of_symbols<'g>(
+    graph: &'g Graph,
+    value_of: impl Fn(SymbolId) -> Option<Expr<'g>>,
+) -> Substitution<'g, impl Fn(NodeId) -> Option<Expr<'g>>> {
+    Substitution::new(graph, move |id| match graph.op(id) {
+        Op::Symbol(symbol) => value_of(symbol),
+        _ => None,
+    })
+}
+
+impl<'g, F: Fn(NodeId) -> Option<Expr<'g>>> Substitution<'g, F> {
+    /// A substitution that asks `value_of` for what stands in the place of a node, whatever that is made of; none goes
+    /// on with what it is made of.
     pub fn new(graph: &'g Graph, value_of: F) -> Self {
         Self { graph, values: NodeMap::new(graph), value_of }
     }
 
-    /// `expr` with the symbols replaced.
+    /// `expr` with its parts replaced.
     pub fn apply(&mut self, expr: Expr<'g>) -> Expr<'g> {
         match expr {
             Expr::Constant(_) => expr,
@@ -28,18 +40,17 @@ impl<'g, F: Fn(SymbolId) -> Option<Expr<'g>>> Substitution<'g, F> {
 
     fn node(&mut self, root: NodeId) -> Expr<'g> {
         let mut walk = Walk::to(root);
-        while let Some(id) = walk.next(self.graph, |x| self.values.contains(x)) {
-            let value = self.applied(id);
+        while let Some(id) = walk.next(self.graph, |x| self.known(x).is_some()) {
+            let value = rebuilt(self.graph, id, |operand| {
+                self.known(operand).unwrap_or_else(|| Expr::of_node(self.graph, operand))
+            });
             self.values.insert(id, value);
         }
-        self.values[root]
+        self.known(root).unwrap_or_else(|| Expr::of_node(self.graph, root))
     }
 
-    fn applied(&self, id: NodeId) -> Expr<'g> {
-        match self.graph.op(id) {
-            Op::Symbol(symbol) => (self.value_of)(symbol).unwrap_or_else(|| Expr::of_node(self.graph, id)),
-            _ => rebuilt(self.graph, id, |operand| self.values[operand]),
-        }
+    fn known(&self, id: NodeId) -> Option<Expr<'g>> {
+        self.values.get(id).copied().or_else(|| (self.value_of)(id))
     }
 }
 

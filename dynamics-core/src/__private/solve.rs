@@ -135,16 +135,6 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         transpose_triangular(r, r_transposed);
     }
 
-    /// `−M⁻¹·B` in the place of `B`, by columns.
-    ///
-    /// # Cost
-    ///
-    /// As that of [`minus_solved`](Self::minus_solved).
-    #[inline]
-    pub fn minus_solve<const M: usize>(&self, b: &mut [[T; N]; M]) {
-        *b = self.minus_solved(b);
-    }
-
     /// `−M⁻¹·B`, by columns.
     ///
     /// # Cost

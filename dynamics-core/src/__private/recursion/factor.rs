@@ -23,10 +23,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
         v: &SVector<T, NV>,
         tau: &SVector<T, NV>,
     ) -> SVector<T, NV> {
-        let mut a = [difference(entries(&self.bias_forces(q, v)), entries(tau))];
+        let minus_forces = [difference(entries(&self.bias_forces(q, v)), entries(tau))];
         let mut factors = Factors::new(const { &EliminationTree::CHAIN });
         factors.factor(&self.mass_matrix(q).data.0);
-        factors.minus_solve(&mut a);
-        columns(a)
+        columns(factors.minus_solved(&minus_forces))
     }
 }
