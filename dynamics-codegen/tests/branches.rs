@@ -1,7 +1,7 @@
 //! Branches that are alike, side by side: what is found, and that it computes what one after the other does.
 
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
-use dynamics_codegen::passes::{Compiled, Operation, Plan, Program, RunTime};
+use dynamics_codegen::passes::{Branches, Compiled, Operation, Plan, Program, RunTime, Source, Stage};
 use dynamics_codegen::spatial::Random;
 use dynamics_codegen::spec::urdf::Urdf;
 use dynamics_codegen::symbolic::Graph;
@@ -78,6 +78,36 @@ fn program<'c>(compiled: &'c Compiled<'_>, method: Method) -> Option<&'c Program
     }
 }
 
+/// Every step is in one stage, after all that it reads, and branches are given what they read.
+fn assert_stages_are_whole(program: &Program) {
+    let mut is_done = vec![false; program.steps.len()];
+    for stage in program.stages() {
+        let given = match &stage {
+            Stage::Trunk(_) => None,
+            Stage::Branches(Branches { own, shared, .. }) => {
+                let given: Vec<Source> = own.iter().chain(shared).map(|&(source, _)| source).collect();
+                assert!(given.iter().filter_map(|source| source.step()).all(|step| is_done[step]));
+                Some(given)
+            }
+        };
+        let (Stage::Trunk(steps) | Stage::Branches(Branches { steps, .. })) = &stage;
+        let first = is_done.clone();
+        for &step in steps {
+            for source in program.read_by(step) {
+                let is_from_here = source.step().is_some_and(|read| is_done[read] && !first[read]);
+                let is_at_hand = match (&given, source) {
+                    (_, Source::Constant(_)) => true,
+                    (Some(given), _) => is_from_here || given.contains(&source),
+                    (None, _) => source.step().is_none_or(|read| is_done[read]),
+                };
+                assert!(is_at_hand, "step {step} reads {source:?}");
+            }
+            assert!(!std::mem::replace(&mut is_done[step], true), "step {step} is in two stages");
+        }
+    }
+    assert!(is_done.into_iter().all(|is_done| is_done));
+}
+
 /// The widest step of inverse dynamics, once every method was compared with what is computed one after the other.
 fn lanes_of(text: &str, attributes: &str) -> usize {
     let urdf = Urdf { file: "robot.urdf", text };
@@ -109,6 +139,7 @@ fn lanes_of(text: &str, attributes: &str) -> usize {
         let (Some(one), Some(other)) = (program(&compiled, method), program(&plain, method)) else {
             continue;
         };
+        assert_stages_are_whole(one);
         let (one, other) = (one.evaluate(read, &[]), other.evaluate(read, &[]));
         let size = other.iter().fold(0.0, |size: f64, x| size.max(x.abs()));
         for (a, b) in one.iter().zip(&other) {
@@ -146,6 +177,31 @@ fn so_is_what_couples_two_legs_and_all_legs() {
             let (together, alone) = (program.instructions(), program.one_by_one().instructions());
             assert!(2 * together < alone, "{method:?} of {count} legs: {together} of {alone}");
         }
+    }
+}
+
+#[test]
+fn legs_are_one_stretch_of_code_or_two() {
+    let (text, graph) = (legs(4), Graph::new());
+    let spec = match read_urdf("Robot", Urdf { file: "robot.urdf", text: &text }, "#[dynamics(base = free)]")
+    {
+        Ok((spec, _)) => spec,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    let compiled = match checked(&spec, &graph, RunTime::Core) {
+        Ok((_, compiled)) => compiled,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    let stretches = |method| {
+        let stages = program(&compiled, method).expect("it is a straight line").stages();
+        stages.iter().filter(|stage| matches!(stage, Stage::Branches(_))).count()
+    };
+    // From the trunk to the feet and back; for accelerations the trunk's is passed on once more.
+    for method in [Method::MassMatrix, Method::InverseDynamics, Method::InverseDynamicsDerivatives] {
+        assert_eq!(stretches(method), 1, "{method:?}");
+    }
+    for method in [Method::ForwardDynamics, Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
+        assert_eq!(stretches(method), 2, "{method:?}");
     }
 }
 

@@ -72,27 +72,27 @@ macro_rules! lanes {
 
         impl $name {
             /// The numbers, lane by lane.
-            #[inline(always)]
+            #[inline]
             #[must_use]
             pub const fn to_array(self) -> [$float; $count] {
                 self.0.to_array()
             }
 
-            #[inline(always)]
+            #[inline]
             const fn as_array(&self) -> &[$float; $count] {
                 self.0.as_array()
             }
         }
 
         impl From<[$float; $count]> for $name {
-            #[inline(always)]
+            #[inline]
             fn from(lanes: [$float; $count]) -> Self {
                 Self(wide::$name::new(lanes))
             }
         }
 
         impl From<$float> for $name {
-            #[inline(always)]
+            #[inline]
             fn from(value: $float) -> Self {
                 Self(wide::$name::splat(value))
             }
@@ -112,43 +112,43 @@ macro_rules! lanes {
         impl Neg for $name {
             type Output = Self;
 
-            #[inline(always)]
+            #[inline]
             fn neg(self) -> Self {
                 Self(-self.0)
             }
         }
 
         impl Zero for $name {
-            #[inline(always)]
+            #[inline]
             fn zero() -> Self {
                 Self::from(0.0)
             }
 
-            #[inline(always)]
+            #[inline]
             fn is_zero(&self) -> bool {
                 *self == Self::zero()
             }
         }
 
         impl One for $name {
-            #[inline(always)]
+            #[inline]
             fn one() -> Self {
                 Self::from(1.0)
             }
         }
 
         impl Scalar for $name {
-            #[inline(always)]
+            #[inline]
             fn of(value: f64) -> Self {
                 Self::from(<$float as Scalar>::of(value))
             }
 
-            #[inline(always)]
+            #[inline]
             fn sin_cos(self) -> (Self, Self) {
                 $sin_cos(self)
             }
 
-            #[inline(always)]
+            #[inline]
             fn sqrt(self) -> Self {
                 #[cfg(feature = "std")]
                 return Self(self.0.sqrt());
@@ -156,19 +156,19 @@ macro_rules! lanes {
                 return Self::from(self.to_array().map(Scalar::sqrt));
             }
 
-            #[inline(always)]
+            #[inline]
             fn is_finite(self) -> bool {
                 self.to_array().into_iter().all($float::is_finite)
             }
 
-            #[inline(always)]
+            #[inline]
             fn mul_add(self, a: Self, b: Self) -> Self {
                 if FUSED { Self(self.0.mul_add(a.0, b.0)) } else { self * a + b }
             }
         }
 
         impl Kernel for $name {
-            #[inline(always)]
+            #[inline]
             fn turn(sin: Self, cos: Self, quarter_turns: Self) -> (Self, Self) {
                 let turns = quarter_turns.0.to_bits();
                 let one = wide::$name::splat($float::from_bits(1)).to_bits();
@@ -187,7 +187,7 @@ macro_rules! lanes {
             type Element = $float;
             const COUNT: usize = $count;
 
-            #[inline(always)]
+            #[inline]
             fn gather<S, const N: usize>(states: &[S], row: impl Fn(&S) -> &[$float; N]) -> [Self; N] {
                 match states.first_chunk::<$count>() {
                     Some(block) => lanes_of_rows::<_, _, _, _, _, $edge>(block, row),
@@ -200,7 +200,7 @@ macro_rules! lanes {
                 }
             }
 
-            #[inline(always)]
+            #[inline]
             fn scatter<S, const N: usize>(
                 lanes: &[Self; N],
                 states: &mut [S],
@@ -217,14 +217,14 @@ macro_rules! lanes {
         impl $trait for $name {
             type Output = Self;
 
-            #[inline(always)]
+            #[inline]
             fn $method(self, other: Self) -> Self {
                 Self($trait::$method(self.0, other.0))
             }
         }
 
         impl $assign for $name {
-            #[inline(always)]
+            #[inline]
             fn $assigning(&mut self, other: Self) {
                 *self = $trait::$method(*self, other);
             }

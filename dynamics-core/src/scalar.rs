@@ -20,6 +20,16 @@ use crate::trigonometry::sin_cos_f64 as sin_cos_double;
 /// `target-cpu` that has it) and aarch64. Elsewhere a fused operation would be a library call, so `a·b + c` it is.
 pub const FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")));
 
+/// The most branches that are in a line of code each.
+const SPELT_OUT: usize = 8;
+
+/// Computes one branch.
+macro_rules! branch {
+    ($F:ident, $own:ident, $shared:ident, $results:ident, $branch:expr) => {
+        $F::of(|i| $own[i][$branch], |j| $shared[j], |k, value| $results[k][$branch] = value)
+    };
+}
+
 /// A real number, or several of them side by side, or one with its derivatives.
 ///
 /// Implemented for `f32` and `f64`. Every method of an implementation should be `#[inline(always)]`: generated code
@@ -51,15 +61,29 @@ pub trait Scalar:
         one_by_one(angles)
     }
 
-    /// One operation on each of several numbers, with the bits that it gives of one.
+    /// What `F` makes of each of `N` branches, with the bits that it makes of one alone: `own` are the numbers that each
+    /// branch has of its own, `shared` those that all have.
     ///
-    /// With feature `simd`, `f64` computes them side by side in lanes.
-    #[inline]
-    fn each<F: Elementwise, const N: usize>(operands: [&[Self; N]; 3]) -> [Self; N] {
-        let [a, b, c] = operands;
-        let mut results = *a;
-        for (((result, a), b), c) in results.iter_mut().zip(a).zip(b).zip(c) {
-            *result = F::of([*a, *b, *c]);
+    /// With feature `simd`, `f32` and `f64` compute several branches side by side. Without it they come one after the
+    /// other in a loop; those of scalars that are wider each in a line of its own, which keeps them in registers.
+    #[inline(always)]
+    fn of_each<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+        own: &[[Self; N]; I],
+        shared: &[Self; J],
+    ) -> [[Self; N]; K] {
+        let mut results = [[Self::zero(); N]; K];
+        macro_rules! spelt_out {
+            ($($branch:literal)*) => {
+                $(if const { $branch < N && N <= SPELT_OUT } {
+                    branch!(F, own, shared, results, $branch);
+                })*
+            };
+        }
+        spelt_out!(0 1 2 3 4 5 6 7);
+        if const { N > SPELT_OUT } {
+            for branch in 0..N {
+                branch!(F, own, shared, results, branch);
+            }
         }
         results
     }
@@ -79,10 +103,11 @@ pub trait Scalar:
     }
 }
 
-/// An operation on up to three numbers of any kind, for [`Scalar::each`].
+/// What is computed of each of several branches of a robot that are alike, for [`Scalar::of_each`].
 pub trait Elementwise {
-    /// What it gives of one number each, or of as many as lanes hold.
-    fn of<S: Scalar>(operands: [S; 3]) -> S;
+    /// Reads the numbers that the branch has of its own and those that all branches share, by their places, and gives
+    /// each result with its place. Of one branch, or of as many as lanes hold.
+    fn of<S: Scalar>(own: impl Fn(usize) -> S, shared: impl Fn(usize) -> S, give: impl FnMut(usize, S));
 }
 
 /// [`Scalar::sin_cos`] of each angle.
@@ -117,9 +142,25 @@ macro_rules! impl_scalar {
             }
 
             #[cfg(feature = "simd")]
-            #[inline]
-            fn each<F: Elementwise, const N: usize>(operands: [&[Self; N]; 3]) -> [Self; N] {
-                crate::lanes::together::$float::<F, N>(operands)
+            #[inline(always)]
+            fn of_each<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+                own: &[[Self; N]; I],
+                shared: &[Self; J],
+            ) -> [[Self; N]; K] {
+                crate::lanes::together::$float::<F, N, I, J, K>(own, shared)
+            }
+
+            #[cfg(not(feature = "simd"))]
+            #[inline(always)]
+            fn of_each<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+                own: &[[Self; N]; I],
+                shared: &[Self; J],
+            ) -> [[Self; N]; K] {
+                let mut results = [[0.0; N]; K];
+                for branch in 0..N {
+                    branch!(F, own, shared, results, branch);
+                }
+                results
             }
 
             #[inline(always)]

@@ -2,9 +2,11 @@
 //!
 //! Values that are read once and short are written where they are read.
 
+use super::branches::{SideBySide, Within};
 use super::names::{Names, angle_suffix, entry};
+use super::text::{Binding, Sums, Text, atom, join, negated, product, sum};
 use crate::mechanics::equations::{Argument, Block, Input, Shape};
-use crate::passes::{Operand, Operation, Program, Source};
+use crate::passes::{Branches, Operand, Operation, Program, Source, Stage};
 
 /// The longest expression that is written into another one.
 const INLINE_WIDTH: usize = 44;
@@ -51,27 +53,6 @@ pub(super) trait Language {
     fn layout(&self, statements: &[Statement], needed: &[usize], indent: usize) -> String;
 }
 
-/// What a language says of numbers side by side in words of its own.
-pub(super) trait SideBySide {
-    /// The same number for each.
-    fn each(&self, number: &str) -> String;
-
-    /// The same constant for each.
-    fn constant(&self, value: f64) -> String;
-
-    /// A number for each.
-    fn row(&self, numbers: &[String]) -> String;
-
-    /// A constant for each.
-    fn constants(&self, values: &[f64]) -> String;
-
-    /// One of them, by its place.
-    fn one(&self, numbers: &str, place: usize) -> String;
-
-    /// The same in a circle, from that at a place on.
-    fn turned(&self, numbers: &str, place: usize) -> String;
-}
-
 /// The text of a method's body, apart from its frame.
 pub(super) struct Body {
     /// The inputs that are read.
@@ -84,42 +65,16 @@ pub(super) struct Body {
     pub(super) results: Vec<String>,
 }
 
-/// An expression on its way into a line.
-#[derive(Clone, Debug)]
-struct Text {
-    text: String,
-    binding: Binding,
-    depth: usize,
-    /// The statements whose names occur in it.
-    reads: Vec<usize>,
-}
-
-/// How tightly the outermost operator binds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Binding {
-    /// A sum that stays together: it is one operation.
-    MultiplyAdd,
-    Sum,
-    Product,
-    Negation,
-    Atom,
-}
-
-/// How sums are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Sums {
-    /// `a + (b + c)` without parentheses, and so another sum to the last bit.
-    Regrouped,
-    /// In parentheses wherever the order of operations does not go by sums alone: `(a * b) + c`, `a + (b + c)`.
-    Explicit,
-}
-
 /// Names for a value.
 pub(super) enum Named {
     /// One name.
     Value(String),
     /// The names of the sine and the cosine of the value; none for what is not read.
     SinCos(Option<String>, Option<String>),
+    /// A name for each of several rows of numbers, one of each branch.
+    Rows(Vec<String>),
+    /// No name: it hands a result over.
+    Nothing,
 }
 
 /// A line that gives a value its name.
@@ -128,8 +83,6 @@ pub(super) struct Statement {
     pub(super) named: Named,
     /// The value.
     pub(super) value: String,
-    /// How many numbers it is.
-    pub(super) lanes: usize,
     /// The statements whose names occur in it.
     reads: Vec<usize>,
 }
@@ -137,11 +90,13 @@ pub(super) struct Statement {
 impl Statement {
     /// The names, where there are any.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
-        let names = match &self.named {
-            Named::Value(name) => [Some(name), None],
-            Named::SinCos(sin, cos) => [sin.as_ref(), cos.as_ref()],
+        let (names, rows) = match &self.named {
+            Named::Value(name) => ([Some(name), None], [].as_slice()),
+            Named::SinCos(sin, cos) => ([sin.as_ref(), cos.as_ref()], [].as_slice()),
+            Named::Rows(names) => ([None; 2], names.as_slice()),
+            Named::Nothing => ([None; 2], [].as_slice()),
         };
-        names.into_iter().flatten().map(String::as_str)
+        names.into_iter().flatten().chain(rows).map(String::as_str)
     }
 
     /// Whether it reads the statement of that number or a later one.
@@ -153,8 +108,13 @@ impl Statement {
 /// Writes a program; `wanted` are the names that its results shall have.
 pub(super) fn write(program: &Program, wanted: &[String], language: &dyn Language, indent: usize) -> Body {
     let mut writer = Writer::new(program, wanted, language);
-    for step in 0..program.steps.len() {
-        writer.step(step);
+    let stages = program.stages();
+    writer.count_uses(&stages);
+    for stage in &stages {
+        match stage {
+            Stage::Trunk(steps) => steps.iter().for_each(|&step| writer.step(step)),
+            Stage::Branches(branches) => writer.branches(branches),
+        }
     }
     let results: Vec<Text> = program.results.iter().map(|&result| writer.whole(result)).collect();
     let needed: Vec<usize> = results.iter().flat_map(|text| text.reads.iter().copied()).collect();
@@ -166,19 +126,24 @@ pub(super) fn write(program: &Program, wanted: &[String], language: &dyn Languag
     }
 }
 
-struct Writer<'a> {
-    program: &'a Program,
-    language: &'a dyn Language,
-    names: Names,
+pub(super) struct Writer<'a> {
+    pub(super) program: &'a Program,
+    pub(super) language: &'a dyn Language,
+    pub(super) names: Names,
     /// The name that a step shall have because it is a result.
     result_names: Vec<Option<String>>,
     /// For each step whether its sine and its cosine are read.
     sines_read: Vec<(bool, bool)>,
-    values: Vec<(Text, Option<Text>)>,
-    statements: Vec<Statement>,
+    /// How often each step is read: by what is in the same stage, by other stages and by the results.
+    uses: Vec<usize>,
+    /// Each step's value, or its sine and its cosine.
+    pub(super) values: Vec<Option<(Text, Option<Text>)>>,
+    pub(super) statements: Vec<Statement>,
     inputs: Vec<(Input, String)>,
     fields: Vec<usize>,
     numbered: usize,
+    /// The branches' code that is being written.
+    pub(super) within: Option<Within>,
 }
 
 impl<'a> Writer<'a> {
@@ -196,43 +161,65 @@ impl<'a> Writer<'a> {
             names,
             result_names,
             sines_read: sines_read(program),
-            values: Vec::with_capacity(program.steps.len()),
+            uses: vec![0; program.steps.len()],
+            values: vec![None; program.steps.len()],
             statements: Vec::new(),
             inputs: Vec::new(),
             fields: Vec::new(),
             numbered: 0,
+            within: None,
         }
     }
 
-    fn step(&mut self, step: usize) {
+    fn count_uses(&mut self, stages: &[Stage]) {
+        let mut read = |source: Source, times: usize| {
+            if let Some(step) = source.step() {
+                self.uses[step] += times;
+            }
+        };
+        for stage in stages {
+            match stage {
+                Stage::Trunk(steps) => {
+                    let sources = steps.iter().flat_map(|&step| self.program.read_by(step));
+                    sources.for_each(|source| read(source, 1));
+                }
+                Stage::Branches(Branches { own, shared, within, .. }) => {
+                    within.iter().for_each(|&(source, times)| read(source, times));
+                    own.iter().chain(shared).for_each(|&(source, _)| read(source, 1));
+                }
+            }
+        }
+        self.program.results.iter().for_each(|result| read(result.source, 1));
+    }
+
+    pub(super) fn step(&mut self, step: usize) {
         let operation = self.program.steps[step].operation;
         if let Operation::SinCos(angle) = operation {
-            return self.sin_cos(angle);
+            return self.sin_cos(step, angle);
         }
-        let lanes = self.program.steps[step].lanes;
-        let text = self.operation(operation, lanes);
+        let text = self.operation(operation);
         let wanted = self.result_names[step].take();
-        let short = text.text.len() <= INLINE_WIDTH && text.depth < INLINE_DEPTH;
-        let read_once = self.program.steps[step].uses == 1;
+        let is_row = matches!(operation, Operation::Each(_) | Operation::Turn(..));
+        let short = is_row || text.text.len() <= INLINE_WIDTH && text.depth < INLINE_DEPTH;
+        let read_once = self.uses[step] == 1;
+        let is_given_only = self.within.is_some() && self.uses[step] == 0;
         let name = match wanted {
             Some(name) if !name.is_empty() => self.names.fresh(&name),
             Some(_) if read_once => {
-                self.values.push((text, None));
+                self.values[step] = Some((text, None));
                 return;
             }
-            None if read_once && short => {
-                self.values.push((text, None));
+            None if read_once && short || is_given_only => {
+                self.values[step] = Some((text, None));
                 return;
             }
-            _ if lanes > 1 => self.numbered_name('l'),
-            _ => self.numbered_name('e'),
+            _ => self.numbered_name(if is_row || self.within.is_some() { 'l' } else { 'e' }),
         };
-        let statement = self.declare(Named::Value(name.clone()), text, lanes);
-        self.values.push((atom(name, vec![statement]), None));
+        let statement = self.declare(Named::Value(name.clone()), text);
+        self.values[step] = Some((atom(name, vec![statement]), None));
     }
 
-    fn sin_cos(&mut self, angle: Operand) {
-        let step = self.values.len();
+    fn sin_cos(&mut self, step: usize, angle: Operand) {
         let inputs = self.inputs_of(angle);
         let language = self.language;
         let suffix =
@@ -240,132 +227,85 @@ impl<'a> Writer<'a> {
         let (reads_sin, reads_cos) = self.sines_read[step];
         let sin = reads_sin.then(|| self.names.fresh(&format!("s{suffix}")));
         let cos = reads_cos.then(|| self.names.fresh(&format!("c{suffix}")));
-        let lanes = self.program.steps[step].lanes;
-        let angle = self.operand(angle, lanes);
-        let statement = self.declare(Named::SinCos(sin.clone(), cos.clone()), angle, lanes);
+        let angle = self.whole(angle);
+        let statement = self.declare(Named::SinCos(sin.clone(), cos.clone()), angle);
         let read = |name: Option<String>| atom(name.unwrap_or_default(), vec![statement]);
-        self.values.push((read(sin), Some(read(cos))));
+        self.values[step] = Some((read(sin), Some(read(cos))));
     }
 
-    /// The inputs that an operand is directly made of.
+    /// The inputs that an operand is directly made of; of branches those of the first.
     fn inputs_of(&self, operand: Operand) -> Vec<Input> {
         match operand.source {
             Source::Input(input) => vec![input],
-            Source::Step(k) => self.program.steps[k]
-                .operation
-                .operands()
-                .flat_map(|operand| self.inputs_of(operand))
-                .collect(),
+            Source::Step(k) => match self.program.steps[k].operation {
+                Operation::Each(row) => self.inputs_of(self.program.rows[row][0]),
+                operation => operation.operands().flat_map(|operand| self.inputs_of(operand)).collect(),
+            },
             _ => Vec::new(),
         }
     }
 
-    fn declare(&mut self, named: Named, text: Text, lanes: usize) -> usize {
-        self.statements.push(Statement { named, lanes, value: text.text, reads: text.reads });
+    pub(super) fn declare(&mut self, named: Named, text: Text) -> usize {
+        self.statements.push(Statement { named, value: text.text, reads: text.reads });
         self.statements.len() - 1
     }
 
-    fn numbered_name(&mut self, letter: char) -> String {
+    pub(super) fn numbered_name(&mut self, letter: char) -> String {
         let name = self.names.fresh(&format!("{letter}{}", self.numbered));
         self.numbered += 1;
         name
     }
 
-    fn operation(&mut self, operation: Operation, lanes: usize) -> Text {
+    fn operation(&mut self, operation: Operation) -> Text {
         match operation {
             Operation::Add(a, b) => {
-                let (a, b) = (self.term(a, lanes), self.term(b, lanes));
+                let (a, b) = (self.term(a), self.term(b));
                 sum(a, b, Binding::Sum, self.language.sums())
             }
             Operation::Mul(a, b) => {
-                let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
+                let (a, b) = (self.whole(a), self.whole(b));
                 product(a, '*', b)
             }
             Operation::Div(a, b) => {
-                let (a, b) = (self.operand(a, lanes), self.operand(b, lanes));
+                let (a, b) = (self.whole(a), self.whole(b));
                 product(a, '/', b)
             }
-            Operation::MulAdd(a, b, c) => self.multiply_add(a, b, c, lanes),
+            Operation::MulAdd(a, b, c) => self.multiply_add(a, b, c),
             Operation::Sqrt(a) => {
-                let a = self.operand(a, lanes);
+                let a = self.whole(a);
                 join(&[&a], self.language.square_root(&a.text), Binding::Atom)
             }
             Operation::SinCos(_) => unreachable!("written by `sin_cos`"),
             Operation::Each(row) => self.row(row),
-            Operation::Lane(a, lane) => self.of_row(a, |words, row| words.one(row, lane)),
-            Operation::Turn(a, lane) => self.of_row(a, |words, row| words.turned(row, lane)),
+            Operation::Lane(a, lane) => self.one_of(a, lane),
+            Operation::Turn(a, first) => self.turned(a, first),
         }
     }
 
-    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand, lanes: usize) -> Text {
-        let texts = [a, b, c].map(|operand| self.operand(operand, lanes));
+    fn multiply_add(&mut self, a: Operand, b: Operand, c: Operand) -> Text {
+        let texts = [a, b, c].map(|operand| self.whole(operand));
         let [first, second, third] = &texts;
         if let Some(call) = self.language.multiply_add(&first.text, &second.text, &third.text) {
             return join(&[first, second, third], call, Binding::Atom);
         }
         let is_negative = a.negative != b.negative;
         let positive = |operand| Operand { negative: false, ..operand };
-        let (a, b) = (self.operand(positive(a), lanes), self.operand(positive(b), lanes));
-        let text = sum(
-            (is_negative, product(a, '*', b)),
-            self.term(c, lanes),
-            Binding::Product,
-            self.language.sums(),
-        );
+        let (a, b) = (self.whole(positive(a)), self.whole(positive(b)));
+        let text =
+            sum((is_negative, product(a, '*', b)), self.term(c), Binding::Product, self.language.sums());
         Text { binding: Binding::MultiplyAdd, ..text }
     }
 
     /// A term of a sum, and whether it is taken off.
-    fn term(&mut self, operand: Operand, lanes: usize) -> (bool, Text) {
-        (operand.negative, self.operand(Operand { negative: false, ..operand }, lanes))
+    fn term(&mut self, operand: Operand) -> (bool, Text) {
+        (operand.negative, self.whole(Operand { negative: false, ..operand }))
     }
 
-    /// An operand of a step that computes so many numbers.
-    fn operand(&mut self, operand: Operand, lanes: usize) -> Text {
-        let own = match operand.source {
-            Source::Step(k) | Source::Sin(k) | Source::Cos(k) => self.program.steps[k].lanes,
-            _ => 1,
-        };
-        if lanes == own {
-            return self.whole(operand);
+    /// An operand.
+    pub(super) fn whole(&mut self, operand: Operand) -> Text {
+        if let Some(given) = self.given(operand.source) {
+            return if operand.negative { negated(given) } else { given };
         }
-        if let Source::Constant(value) = operand.source {
-            let value = if operand.negative { -value } else { value };
-            return atom(self.side_by_side().constant(value), Vec::new());
-        }
-        let positive = self.whole(Operand { negative: false, ..operand });
-        let text = join(&[&positive], self.side_by_side().each(&positive.text), Binding::Atom);
-        if operand.negative { negated(text) } else { text }
-    }
-
-    /// Numbers side by side.
-    fn row(&mut self, row: usize) -> Text {
-        let row = &self.program.rows[row];
-        let constant = |operand: &Operand| match operand.source {
-            Source::Constant(value) => Some(if operand.negative { -value } else { value } + 0.0),
-            _ => None,
-        };
-        if let Some(values) = row.iter().map(constant).collect::<Option<Vec<f64>>>() {
-            return atom(self.side_by_side().constants(&values), Vec::new());
-        }
-        let texts: Vec<Text> = row.iter().map(|&operand| self.whole(operand)).collect();
-        let numbers: Vec<String> = texts.iter().map(|text| text.text.clone()).collect();
-        join(&texts.iter().collect::<Vec<_>>(), self.side_by_side().row(&numbers), Binding::Atom)
-    }
-
-    /// What is said of numbers side by side; minus that of their negatives.
-    fn of_row(&mut self, numbers: Operand, said: impl Fn(&dyn SideBySide, &str) -> String) -> Text {
-        let row = wrap(self.whole(Operand { negative: false, ..numbers }), Binding::Atom);
-        let text = join(&[&row], said(self.side_by_side(), &row.text), Binding::Atom);
-        if numbers.negative { negated(text) } else { text }
-    }
-
-    fn side_by_side(&self) -> &'a dyn SideBySide {
-        self.language.side_by_side().expect("a program with lanes is for a language with words for them")
-    }
-
-    /// An operand as it is, of however many numbers.
-    fn whole(&mut self, operand: Operand) -> Text {
         let value = match operand.source {
             Source::Constant(value) => return self.literal(if operand.negative { -value } else { value }),
             Source::Input(input) => atom(self.input(input), Vec::new()),
@@ -375,10 +315,15 @@ impl<'a> Writer<'a> {
                 }
                 atom(self.language.field(field), Vec::new())
             }
-            Source::Step(k) | Source::Sin(k) => self.values[k].0.clone(),
-            Source::Cos(k) => self.values[k].1.clone().expect("a step of sines has two values"),
+            Source::Step(k) | Source::Sin(k) => self.made(k).0.clone(),
+            Source::Cos(k) => self.made(k).1.clone().expect("a step of sines has two values"),
         };
         if operand.negative { negated(value) } else { value }
+    }
+
+    /// What a step before made.
+    fn made(&self, step: usize) -> &(Text, Option<Text>) {
+        self.values[step].as_ref().expect("steps are written after those that they read")
     }
 
     fn input(&mut self, input: Input) -> String {
@@ -394,7 +339,11 @@ impl<'a> Writer<'a> {
     }
 
     fn literal(&self, value: f64) -> Text {
-        let (text, binding) = self.language.constant(value + 0.0); // zero has no sign
+        let value = value + 0.0; // zero has no sign
+        let (text, binding) = match &self.within {
+            Some(_) => (self.side_by_side().constant(value), Binding::Atom),
+            None => self.language.constant(value),
+        };
         Text { binding, ..atom(text, Vec::new()) }
     }
 }
@@ -437,57 +386,6 @@ fn letter(block: &str) -> &str {
         "dtau_da" => "m",
         "da_dtau" => "w",
         other => other,
-    }
-}
-
-fn atom(text: String, reads: Vec<usize>) -> Text {
-    Text { text, binding: Binding::Atom, depth: 0, reads }
-}
-
-fn join(parts: &[&Text], text: String, binding: Binding) -> Text {
-    let depth = parts.iter().map(|part| part.depth).max().unwrap_or(0) + 1;
-    let reads = parts.iter().flat_map(|part| part.reads.iter().copied()).collect();
-    Text { text, binding, depth, reads }
-}
-
-/// `a + b`, each with whether it is taken off; what is added binds at least as `added`, unless sums are explicit.
-fn sum(a: (bool, Text), b: (bool, Text), added: Binding, sums: Sums) -> Text {
-    let ((is_negative, left), (minus, right)) = if a.0 && !b.0 { (b, a) } else { (a, b) };
-    let left = if is_negative { negated(left) } else { left };
-    let (left, least) = match sums {
-        Sums::Regrouped => (left, if minus { Binding::Product } else { added }),
-        Sums::Explicit if left.binding == Binding::Product => (wrap(left, Binding::Atom), Binding::Negation),
-        Sums::Explicit => (left, Binding::Negation),
-    };
-    let right = wrap(right, least);
-    let sign = if minus { '-' } else { '+' };
-    join(&[&left, &right], format!("{} {sign} {}", left.text, right.text), Binding::Sum)
-}
-
-/// `a * b` or `a / b`.
-fn product(a: Text, operator: char, b: Text) -> Text {
-    let (a, b) = (wrap(a, Binding::Product), wrap(b, Binding::Negation));
-    join(&[&a, &b], format!("{} {operator} {}", a.text, b.text), Binding::Product)
-}
-
-/// `-a * b` is `-(a * b)`, and the negative of `-a * b` is `a * b`.
-fn negated(value: Text) -> Text {
-    let value = wrap(value, Binding::Product);
-    match value.text.strip_prefix('-') {
-        Some(positive) => Text { text: positive.to_owned(), binding: Binding::Product, ..value },
-        None => {
-            let binding = value.binding.min(Binding::Negation);
-            Text { text: format!("-{}", value.text), binding, ..value }
-        }
-    }
-}
-
-/// The text in parentheses, unless it binds at least as tightly as `least`.
-fn wrap(text: Text, least: Binding) -> Text {
-    if text.binding >= least {
-        text
-    } else {
-        Text { text: format!("({})", text.text), binding: Binding::Atom, ..text }
     }
 }
 

@@ -13,6 +13,7 @@ mod regression;
 mod schedule;
 mod share;
 mod signs;
+mod stages;
 mod table;
 mod verify;
 
@@ -22,5 +23,6 @@ pub use plan::{Plan, RunTime, methods, without_terms};
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
 pub use schedule::schedule;
 pub use share::share;
+pub use stages::{Branches, BySource, Stage};
 pub use table::NUMBERS_PER_LINK;
 pub use verify::{Disagreement, disagreements};

@@ -23,6 +23,16 @@ pub enum Source {
     Cos(usize),
 }
 
+impl Source {
+    /// The step whose result it is.
+    pub fn step(self) -> Option<usize> {
+        match self {
+            Source::Step(k) | Source::Sin(k) | Source::Cos(k) => Some(k),
+            Source::Constant(_) | Source::Input(_) | Source::Field(_) => None,
+        }
+    }
+}
+
 /// A value or its negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Operand {
@@ -190,10 +200,7 @@ impl Program {
         let mut became: Vec<Vec<Operand>> = Vec::with_capacity(self.steps.len());
         let mut steps: Vec<Step> = Vec::new();
         let of = |became: &[Vec<Operand>], operand: Operand, lane: usize| {
-            let step = match operand.source {
-                Source::Step(k) | Source::Sin(k) | Source::Cos(k) => k,
-                _ => return operand,
-            };
+            let Some(step) = operand.source.step() else { return operand };
             let values = &became[step];
             let value = values[lane.min(values.len() - 1)];
             let source = match (operand.source, value.source) {
@@ -276,7 +283,7 @@ impl Program {
     pub(super) fn count_uses(&mut self) {
         let mut uses = vec![0; self.steps.len()];
         let mut read = |operand: Operand| {
-            if let Source::Step(k) | Source::Sin(k) | Source::Cos(k) = operand.source {
+            if let Some(k) = operand.source.step() {
                 uses[k] += 1;
             }
         };

@@ -1,40 +1,50 @@
-//! One operation on as many numbers as there are, in lanes.
+//! What is computed of each of several branches, in lanes.
 //!
-//! By name, as the [sines](super::sines) are: compilers find no lanes within a long function. Without loops: generated code
-//! calls this by the hundred in one function, and with loops to unroll in each call a humanoid's forward dynamics took 20 s
-//! to compile. Numbers that fill the lanes are taken whole, which takes a fifth off what is left.
+//! By name, as the [sines](super::sines) are: compilers find no lanes within a long function. Branches that fit into a
+//! register are one run of the code, and so are those of a second one; the last register begins early enough to be full.
 
 use super::{f32x4, f32x8, f64x2, f64x4, f64x8};
 use crate::scalar::Elementwise;
 
+/// Whether registers hold four doubles.
+const HAS_256_BITS: bool = cfg!(target_feature = "avx");
+/// Whether registers hold eight doubles.
+const HAS_512_BITS: bool = cfg!(target_feature = "avx512f");
+
 macro_rules! together {
-    ($float:ident: $($lanes:ident[$($place:literal)*] of $width:literal for $n:pat),*) => {
-        /// The operation on each number.
-        #[inline]
-        pub(crate) fn $float<F: Elementwise, const N: usize>(operands: [&[$float; N]; 3]) -> [$float; N] {
-            let [a, b, c] = operands;
-            let mut results = *a;
-            match N {
-                $($n => {
-                    let lanes = |numbers: &[$float; N]| match numbers.first_chunk::<$width>() {
-                        Some(numbers) => $lanes::from(*numbers),
+    ($name:ident: $float:ident, $lanes:ident[$($place:literal)*] of $width:literal) => {
+        #[inline(always)]
+        fn $name<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+            own: &[[$float; N]; I],
+            shared: &[$float; J],
+        ) -> [[$float; N]; K] {
+            let mut results = [[0.0; N]; K];
+            // A macro, so that the code is inlined as often as it stands here.
+            macro_rules! compute {
+                ($first:expr) => {{
+                    let first = $first;
+                    F::of(
                         // Behind the numbers there are ones.
-                        None => $lanes::from([$(if $place < N { numbers[$place] } else { 1.0 }),*]),
-                    };
-                    let lanes = F::of([lanes(a), lanes(b), lanes(c)]).to_array();
-                    match results.first_chunk_mut::<$width>() {
-                        Some(results) => *results = lanes,
-                        None => {
+                        |i| $lanes::from([$(if $place < N { own[i][first + $place] } else { 1.0 }),*]),
+                        |j| $lanes::from(shared[j]),
+                        |k, lanes| {
+                            let lanes = lanes.to_array();
                             $(if $place < N {
-                                results[$place] = lanes[$place];
+                                results[k][first + $place] = lanes[$place];
                             })*
-                        }
-                    }
-                })*
-                _ => {
-                    for (((result, a), b), c) in results.iter_mut().zip(a).zip(b).zip(c) {
-                        *result = F::of([*a, *b, *c]);
-                    }
+                        },
+                    );
+                }};
+            }
+            // Decided where `N` becomes a number: the compiler sees no code that is not run.
+            if const { N <= 2 * $width } {
+                compute!(0);
+                if const { N > $width } {
+                    compute!(N - $width);
+                }
+            } else {
+                for register in 0..N.div_ceil($width) {
+                    compute!(($width * register).min(N - $width));
                 }
             }
             results
@@ -42,5 +52,36 @@ macro_rules! together {
     };
 }
 
-together!(f64: f64x2[0 1] of 2 for 2, f64x4[0 1 2 3] of 4 for 3..=4, f64x8[0 1 2 3 4 5 6 7] of 8 for 5..=8);
-together!(f32: f32x4[0 1 2 3] of 4 for 2..=4, f32x8[0 1 2 3 4 5 6 7] of 8 for 5..=8);
+together!(by_f64x2: f64, f64x2[0 1] of 2);
+together!(by_f64x4: f64, f64x4[0 1 2 3] of 4);
+together!(by_f64x8: f64, f64x8[0 1 2 3 4 5 6 7] of 8);
+together!(by_f32x4: f32, f32x4[0 1 2 3] of 4);
+together!(by_f32x8: f32, f32x8[0 1 2 3 4 5 6 7] of 8);
+
+/// What `F` makes of each of N branches.
+#[inline(always)]
+pub(crate) fn f64<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+    own: &[[f64; N]; I],
+    shared: &[f64; J],
+) -> [[f64; N]; K] {
+    if const { HAS_512_BITS && N > 4 } {
+        by_f64x8::<F, N, I, J, K>(own, shared)
+    } else if const { HAS_256_BITS && N > 2 } {
+        by_f64x4::<F, N, I, J, K>(own, shared)
+    } else {
+        by_f64x2::<F, N, I, J, K>(own, shared)
+    }
+}
+
+/// What `F` makes of each of N branches.
+#[inline(always)]
+pub(crate) fn f32<F: Elementwise, const N: usize, const I: usize, const J: usize, const K: usize>(
+    own: &[[f32; N]; I],
+    shared: &[f32; J],
+) -> [[f32; N]; K] {
+    if const { HAS_256_BITS && N > 4 } {
+        by_f32x8::<F, N, I, J, K>(own, shared)
+    } else {
+        by_f32x4::<F, N, I, J, K>(own, shared)
+    }
+}

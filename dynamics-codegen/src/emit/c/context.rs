@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use super::names::{ARGUMENTS, KEYWORDS, Robot};
 use super::{Input, Real};
-use crate::emit::body::{Binding, Language, Named, Statement, Sums};
+use crate::emit::body::{Language, Named, Statement};
 use crate::emit::names::Names;
+use crate::emit::text::{Binding, Sums};
 use crate::mechanics::equations::Argument;
 
 /// What a body is made from.
@@ -68,6 +69,7 @@ impl Language for Context<'_> {
         let is_ignored = |statement: &Statement| match &statement.named {
             Named::Value(_) => false,
             Named::SinCos(sin, cos) => sin.is_none() || cos.is_none(),
+            Named::Rows(_) | Named::Nothing => false,
         };
         if statements.iter().any(is_ignored) {
             let _ = writeln!(lines, "{pad}{real} ignored;");
@@ -82,6 +84,7 @@ impl Language for Context<'_> {
                     let [sin, cos] = [sin, cos].map(|name| name.as_deref().unwrap_or("ignored"));
                     writeln!(lines, "{pad}{}({value}, &{sin}, &{cos});", self.robot.size("SIN_COS"))
                 }
+                Named::Rows(_) | Named::Nothing => unreachable!("nothing is side by side here"),
             };
         }
         lines

@@ -6,8 +6,10 @@
 use std::fmt::Write as _;
 
 use super::names::CALLED;
-use crate::emit::body::{Binding, Language, Named, SideBySide, Statement, Sums, last_readers};
+use crate::emit::body::{Language, Named, Statement, last_readers};
+use crate::emit::branches::{BranchCode, SideBySide};
 use crate::emit::names::{Names, component};
+use crate::emit::text::{Binding, Sums};
 use crate::mechanics::closed::ClosedForms;
 use crate::mechanics::equations::Argument;
 use crate::passes::Sizes;
@@ -82,7 +84,7 @@ impl Language for Context<'_> {
     }
 
     fn side_by_side(&self) -> Option<&dyn SideBySide> {
-        Some(&Lanes)
+        Some(self)
     }
 
     fn sums(&self) -> Sums {
@@ -117,33 +119,55 @@ impl Language for Context<'_> {
     }
 }
 
-/// Numbers side by side in the run time's type for them.
-struct Lanes;
-
-impl SideBySide for Lanes {
-    fn each(&self, number: &str) -> String {
-        format!("each({number})")
+/// What is computed of each branch, by a call of the run time.
+impl SideBySide for Context<'_> {
+    fn constant(&self, value: f64) -> String {
+        format!("S::of({value:?})")
     }
 
-    fn constant(&self, value: f64) -> String {
-        format!("Each::of({value:?})")
+    fn own(&self, place: usize) -> String {
+        format!("own({place})")
+    }
+
+    fn shared(&self, place: usize) -> String {
+        format!("shared({place})")
+    }
+
+    fn give(&self, place: usize, value: &str) -> String {
+        format!("give({place}, {value})")
     }
 
     fn row(&self, numbers: &[String]) -> String {
-        format!("Each([{}])", numbers.join(", "))
+        format!("[{}]", numbers.join(", "))
     }
 
-    fn constants(&self, values: &[f64]) -> String {
-        let values: Vec<String> = values.iter().map(|value| format!("{value:?}")).collect();
-        format!("each_of([{}])", values.join(", "))
+    fn one(&self, numbers: &str, branch: usize) -> String {
+        format!("{numbers}[{branch}]")
     }
 
-    fn one(&self, numbers: &str, place: usize) -> String {
-        format!("{numbers}.0[{place}]")
-    }
-
-    fn turned(&self, numbers: &str, place: usize) -> String {
-        format!("{numbers}.turned::<{place}>()")
+    fn call(&self, BranchCode { branches, statements, own, shared }: &BranchCode) -> String {
+        format!(
+            "{{
+    struct Branch;
+    impl Elementwise for Branch {{
+        #[inline(always)]
+        fn of<S: Scalar>(
+            own: impl ::core::ops::Fn(usize) -> S,
+            shared: impl ::core::ops::Fn(usize) -> S,
+            mut give: impl ::core::ops::FnMut(usize, S),
+        ) {{
+{}        }}
+    }}
+    of_each::<Branch, _, {branches}, _, _, _>(
+        [
+{}        ],
+        [{}],
+    )
+}}",
+            self.layout(statements, &[], 3),
+            own.iter().fold(String::new(), |all, text| all + "            " + text + ",\n"),
+            shared.join(", ")
+        )
     }
 }
 
@@ -151,12 +175,11 @@ impl SideBySide for Lanes {
 fn write_bindings(lines: &mut String, statements: &[Statement], first: usize, pad: &str) {
     let mut done = 0;
     while let Some(statement) = statements.get(done) {
-        let is_sine = |next: &&Statement| {
-            matches!(next.named, Named::SinCos(..)) && next.lanes == 1 && !next.reads_from(first + done)
-        };
+        let is_sine =
+            |next: &&Statement| matches!(next.named, Named::SinCos(..)) && !next.reads_from(first + done);
         let together = statements[done..].iter().take(SINES).take_while(is_sine).count();
         let _ = match together {
-            0 | 1 => writeln!(lines, "{pad}{}", binding(statement)),
+            0 | 1 => writeln!(lines, "{pad}{}", binding(statement).replace('\n', &format!("\n{pad}"))),
             _ => writeln!(lines, "{pad}{}", sines_together(&statements[done..done + together])),
         };
         done += together.max(1);
@@ -171,6 +194,8 @@ fn binding(Statement { named, value, .. }: &Statement) -> String {
             let [sin, cos] = [sin, cos].map(read_or_not);
             format!("let ({sin}, {cos}) = sin_cos({value});")
         }
+        Named::Rows(names) => format!("let [{}] = {value};", names.join(", ")),
+        Named::Nothing => format!("{value};"),
     }
 }
 
