@@ -18,12 +18,18 @@ pub(crate) struct Bound {
     pub(crate) operations: f64,
     /// By the longest chain of operations, of one call on its own; of straight lines only.
     pub(crate) chain: Option<f64>,
+    /// By the number of instructions of a state that has a lane for itself: branches one after the other.
+    pub(crate) in_a_lane: f64,
 }
 
 impl Bound {
     /// In nanoseconds.
     pub(crate) fn at(self, gigahertz: f64) -> Self {
-        Self { operations: self.operations / gigahertz, chain: self.chain.map(|chain| chain / gigahertz) }
+        Self {
+            operations: self.operations / gigahertz,
+            chain: self.chain.map(|chain| chain / gigahertz),
+            in_a_lane: self.in_a_lane / gigahertz,
+        }
     }
 }
 
@@ -47,13 +53,18 @@ pub(crate) fn of(robot: &str) -> BTreeMap<&'static str, Bound> {
         Ok((_, compiled)) => compiled,
         Err(mistakes) => panic!("{robot}: {}", mistakes.into_text()),
     };
+    let cycles = |instructions| f64::from(instructions) / PIPES;
     let bound = |plan: &Plan<'_>, cost: dynamics_codegen::passes::Cost| match plan {
         Plan::StraightLine { program, .. } => Bound {
-            operations: f64::from(program.instructions()) / PIPES,
+            operations: cycles(program.instructions()),
             chain: Some(f64::from(program.latency())),
+            in_a_lane: cycles(program.one_by_one().instructions()),
         },
-        // Almost every product in the loops has its sum.
-        _ => Bound { operations: f64::from(cost.multiplications.max(cost.additions)) / PIPES, chain: None },
+        _ => {
+            // Almost every product in the loops has its sum.
+            let operations = cycles(cost.multiplications.max(cost.additions));
+            Bound { operations, chain: None, in_a_lane: operations }
+        }
     };
     let methods = compiled.methods.iter();
     methods.map(|compiled| (compiled.method.name(), bound(&compiled.plan, compiled.cost))).collect()

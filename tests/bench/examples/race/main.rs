@@ -67,7 +67,7 @@ fn main() -> ExitCode {
         })
         .collect();
     tables::write(folder, "race", &tables::race(&rows, times.gigahertz()));
-    tables::write(folder, "lanes", &tables::lanes(robots, &times));
+    tables::write(folder, "lanes", &tables::lanes(&rows, &times));
     tables::write(folder, "generic", &tables::generic(robots, &times));
     tables::write(folder, "bundles", &tables::bundles(robots, &times));
     std::fs::write(folder.join("race.svg"), chart::svg(&rows)).expect("the chart can be written");
