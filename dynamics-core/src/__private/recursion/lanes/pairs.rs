@@ -104,6 +104,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// diagonal; `nu` has what their turns are multiplied with.
     #[inline(never)]
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    #[allow(clippy::modulo_one, reason = "some scalars take one row at a time")]
     pub(super) fn changes(
         &self,
         changes: &Changes<T, N>,
