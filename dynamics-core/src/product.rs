@@ -1,7 +1,5 @@
 //! The matrix product, without the panic paths nalgebra's leaves where the compiler saves space.
 
-use core::ops::Range;
-
 use nalgebra::{ArrayStorage, SMatrix, SVector};
 
 use crate::scalar::Scalar;
@@ -14,6 +12,57 @@ pub(crate) const COLUMNS: usize = if WIDE { 8 } else { 4 };
 pub(crate) const LONG_STRIP: usize = if WIDE { 8 } else { 4 };
 /// Whether 32 doubles, and what they are made of, fit into the registers.
 const WIDE: bool = cfg!(any(target_feature = "avx", target_arch = "aarch64"));
+/// So many columns at a time where a scalar [has lanes](has_lanes) of its own.
+pub(crate) const FEW_COLUMNS: usize = 4;
+
+/// Whether a scalar is more than one number, so that it fills registers by itself: rows are no lanes then.
+pub(crate) const fn has_lanes<T>() -> bool {
+    size_of::<T>() > size_of::<f64>()
+}
+
+/// So many rows of [`FEW_COLUMNS`] as half of the registers hold, for a scalar with lanes.
+pub(crate) const fn few_rows<T>() -> usize {
+    const REGISTERS: usize =
+        if cfg!(any(target_feature = "avx512f", target_arch = "aarch64")) { 32 } else { 16 };
+    const BYTES: usize = match () {
+        () if cfg!(target_feature = "avx512f") => 64,
+        () if cfg!(target_feature = "avx") => 32,
+        () => 16,
+    };
+    match REGISTERS / 2 / FEW_COLUMNS / size_of::<T>().div_ceil(BYTES) {
+        0 | 1 => 1,
+        2 | 3 => 2,
+        _ => 4,
+    }
+}
+
+/// `by_rows!(T, ROWS = 8, expression)`: the expression with the constant `ROWS`, so many rows as are summed at a time:
+/// [few](few_rows) of a scalar with lanes, or else these. Each sum is made in the same order.
+macro_rules! by_rows {
+    ($scalar:ident, $rows:ident = $most:expr, $expression:expr) => {
+        match const {
+            if $crate::product::has_lanes::<$scalar>() { $crate::product::few_rows::<$scalar>() } else { 0 }
+        } {
+            0 => {
+                const $rows: usize = $most;
+                $expression
+            }
+            1 => {
+                const $rows: usize = 1;
+                $expression
+            }
+            2 => {
+                const $rows: usize = 2;
+                $expression
+            }
+            _ => {
+                const $rows: usize = 4;
+                $expression
+            }
+        }
+    };
+}
+pub(crate) use by_rows;
 
 /// `A·B`, R×C.
 ///
@@ -26,14 +75,31 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     b: &SMatrix<T, K, C>,
 ) -> SMatrix<T, R, C> {
     let mut columns = [[T::zero(); R]; C];
-    let (blocks, rest) = columns.as_chunks_mut::<COLUMNS>();
-    let (factors, factors_of_rest) = b.data.0.as_chunks::<COLUMNS>();
-    for (block, factors) in blocks.iter_mut().zip(factors) {
-        multiply(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), block);
+    macro_rules! multiply_by {
+        ($width:ident) => {
+            let (blocks, rest) = columns.as_chunks_mut::<$width>();
+            let (factors, factors_of_rest) = b.data.0.as_chunks::<$width>();
+            for (block, factors) in blocks.iter_mut().zip(factors) {
+                by_rows!(
+                    T,
+                    ROWS = STRIP,
+                    multiply::<T, R, $width, ROWS, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, block)
+                );
+            }
+            for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
+                let (column, factors) = (core::array::from_mut(column), core::array::from_ref(factors));
+                by_rows!(
+                    T,
+                    ROWS = STRIP,
+                    multiply::<T, R, 1, ROWS, _>(&a.data.0, |k| row_of(factors, k), |_| 0..K, column)
+                );
+            }
+        };
     }
-    for (column, factors) in rest.iter_mut().zip(factors_of_rest) {
-        let (column, factors) = (core::array::from_mut(column), core::array::from_ref(factors));
-        multiply(&a.data.0, |k| row_of(factors, k), |_| 0..K, 0..strips(R), column);
+    if const { has_lanes::<T>() } {
+        multiply_by!(FEW_COLUMNS);
+    } else {
+        multiply_by!(COLUMNS);
     }
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
@@ -68,18 +134,23 @@ pub(crate) fn products<T: Scalar, const R: usize, const W: usize, const S: usize
 }
 
 /// Writes W columns of a product: in each of the strips of rows the sum of column `k` of `a` times `factors(k)` over
-/// all `k` in `terms(strip)`.
+/// all `k` in `terms(strip)`. S rows at a time, of which strips are made.
 #[inline(always)]
-pub(crate) fn multiply<T: Scalar, const R: usize, const W: usize, I: Iterator<Item = usize>>(
+pub(crate) fn multiply<
+    T: Scalar,
+    const R: usize,
+    const W: usize,
+    const S: usize,
+    I: Iterator<Item = usize>,
+>(
     a: &[[T; R]],
     factors: impl Fn(usize) -> [T; W],
     terms: impl Fn(usize) -> I,
-    strips: Range<usize>,
     result: &mut [[T; R]; W],
 ) {
-    for strip in strips {
-        let sums: [[T; STRIP]; W] = products(a, &factors, terms(strip), strip);
-        write_strip(result, strip, &sums);
+    for part in 0..R.div_ceil(S) {
+        let sums: [[T; S]; W] = products(a, &factors, terms(part * S / STRIP), part);
+        write_strip(result, part, &sums);
     }
 }
 

@@ -1,9 +1,16 @@
 //! The hidden solver against nalgebra, on a chain and on a branched tree.
 #![cfg(feature = "std")]
 
+#[cfg(feature = "simd")]
+use dynamics_core::__private::columns;
 use dynamics_core::__private::{EliminationTree, Factors, forward_from_inverse, inverse_of};
 use dynamics_core::InverseDynamicsDerivatives;
+#[cfg(feature = "simd")]
+use dynamics_core::lanes::{Lanes, f64x2, f64x4, f64x8};
 use dynamics_core::nalgebra::SMatrix;
+
+#[cfg(feature = "simd")]
+use crate::common::{bits_of_lane, in_lanes_of};
 
 /// A few roundings of numbers of the size of one, times a condition of some hundred.
 const TOLERANCE: f64 = 1e-12;
@@ -78,6 +85,45 @@ fn agrees<const N: usize>(parents: &[Option<usize>; N], tree: &'static Eliminati
     assert!((m * forward.da_dtau - SMatrix::identity()).amax() < TOLERANCE);
     assert_eq!(forward.da_dtau, forward.da_dtau.transpose());
     assert_eq!(inverse_of(&m, tree), forward.da_dtau);
+    #[cfg(feature = "simd")]
+    {
+        each_lane_has_the_bits_of_one::<f64x2, N>(parents, tree);
+        each_lane_has_the_bits_of_one::<f64x4, N>(parents, tree);
+        each_lane_has_the_bits_of_one::<f64x8, N>(parents, tree);
+    }
+}
+
+/// Several matrices as one, of whose scalar rows and columns are taken otherwise. In the last one there are numbers that
+/// are not finite.
+#[cfg(feature = "simd")]
+fn each_lane_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
+    parents: &[Option<usize>; N],
+    tree: &'static EliminationTree<N>,
+) {
+    let mut random = random_numbers(N as u64 + 1);
+    let m: Vec<_> = (0..L::COUNT).map(|_| mass_matrix(parents, &mut random)).collect();
+    let mut b: Vec<_> = m.iter().map(|_| SMatrix::<f64, N, N>::from_fn(|_, _| random())).collect();
+    if let Some(last) = b.last_mut() {
+        last[N / 2] = f64::NAN;
+        last[N * N - 1 - N / 3] = f64::INFINITY;
+    }
+    let mut wide = Factors::new(tree);
+    wide.factor(&in_lanes_of::<L, N, N>(&m).data.0);
+    let (solved, inverse) = (wide.minus_solved(&in_lanes_of::<L, N, N>(&b).data.0), wide.inverse());
+    for (lane, (m, b)) in m.iter().zip(&b).enumerate() {
+        let factors = factors(&m.data.0, tree);
+        let check = |found: [[L; N]; N], expected: [[f64; N]; N]| {
+            let expected = columns(expected).map(f64::to_bits);
+            let text = |x: SMatrix<u64, N, N>| format!("{:?}", x.map(f64::from_bits)); // in which NaN equals NaN
+            assert_eq!(text(bits_of_lane(&columns(found), lane)), text(expected));
+        };
+        check(solved, factors.minus_solved(&b.data.0));
+        check(inverse, factors.inverse());
+    }
+    let inverses = inverse_of(&in_lanes_of::<L, N, N>(&m), tree);
+    for (lane, m) in m.iter().enumerate() {
+        assert_eq!(bits_of_lane(&inverses, lane), inverse_of(m, tree).map(f64::to_bits));
+    }
 }
 
 #[test]

@@ -39,8 +39,10 @@ macro_rules! mirror {
         use $crate::__private::in_place::transposed;
         use $crate::product::STRIP;
 
-        for block in 0..$n / STRIP {
-            for strip in block..$n / STRIP {
+        // Lanes of a scalar are no rows: one by one.
+        let blocks = if $crate::product::has_lanes::<T>() { 0 } else { $n / STRIP };
+        for block in 0..blocks {
+            for strip in block..blocks {
                 let mut tile = [[T::zero(); STRIP]; STRIP];
                 for (j, column) in tile.iter_mut().enumerate() {
                     for (i, entry) in column.iter_mut().enumerate() {
@@ -56,7 +58,7 @@ macro_rules! mirror {
                 }
             }
         }
-        for j in $n / STRIP * STRIP..$n {
+        for j in blocks * STRIP..$n {
             for i in 0..j {
                 $matrix[j][i] = $matrix[i][j];
             }

@@ -23,24 +23,7 @@ pub fn forward_from_inverse<T: Scalar, const N: usize>(
     inverse: &InverseDynamicsDerivatives<T, N>,
     factors: &Factors<T, N>,
 ) -> ForwardDynamicsDerivatives<T, N> {
-    ForwardDynamicsDerivatives {
-        da_dq: minus_solved(factors, &inverse.dtau_dq),
-        da_dv: minus_solved(factors, &inverse.dtau_dv),
-        da_dtau: inverse_by(factors),
-    }
-}
-
-// On their own, for the stack of unoptimised builds: there each step between is a matrix.
-
-fn minus_solved<T: Scalar, const N: usize>(
-    factors: &Factors<T, N>,
-    b: &SMatrix<T, N, N>,
-) -> SMatrix<T, N, N> {
-    columns(factors.minus_solved(&b.data.0))
-}
-
-fn inverse_by<T: Scalar, const N: usize>(factors: &Factors<T, N>) -> SMatrix<T, N, N> {
-    columns(factors.inverse())
+    factors.forward_from_inverse(inverse)
 }
 
 /// `M⁻¹`, of a symmetric positive definite matrix.

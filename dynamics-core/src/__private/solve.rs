@@ -6,12 +6,20 @@
 //! what they owe to others are products too, and only the four wait for each other. What the tree leaves zero is skipped,
 //! strip by strip of four rows.
 //!
+//! A scalar with lanes of its own leaves none to the rows: so many are summed at a time as fit the registers, and each sum
+//! has the terms that a float's strip has, in their order, so that every lane has the bits of one float.
+//!
 //! R. Featherstone, *Rigid Body Dynamics Algorithms*, Springer 2008, §6.5; J. Du Croz, N. Higham, *Stability of methods
 //! for matrix inversion*, IMA Journal of Numerical Analysis 12, 1992, for the inverse of a triangular matrix.
 
+use nalgebra::SMatrix;
+
+use super::columns;
 use super::in_place::{Tile, blank, mirror, put, transposed};
+use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::product::{
-    COLUMNS, LONG_STRIP, STRIP, add_products, multiply, products, row_of, strip_of, strips, write_strip,
+    COLUMNS, FEW_COLUMNS, LONG_STRIP, STRIP, add_products, by_rows, has_lanes, multiply, products, row_of,
+    strip_of, strips, write_strip,
 };
 use crate::scalar::Scalar;
 
@@ -118,7 +126,9 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     #[inline]
     #[must_use]
     pub fn new(tree: &'static EliminationTree<N>) -> Self {
-        Self { tree, r: blank(), r_transposed: blank(), inverse_d: [T::one(); N] }
+        // Zeros that the compiler knows: what a function returns would be copied into the struct.
+        let zeros = || [[T::zero(); N]; N];
+        Self { tree, r: zeros(), r_transposed: zeros(), inverse_d: [T::one(); N] }
     }
 
     /// Those of a symmetric positive definite matrix, of which the rows up to the diagonal are read. What functions
@@ -143,8 +153,6 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     #[inline(never)]
     pub fn minus_solved<const M: usize>(&self, b: &[[T; N]; M]) -> [[T; N]; M] {
         let mut solved = blank();
-        // As many columns at a time as leave none for last.
-        let width = if M.is_multiple_of(6) && !M.is_multiple_of(COLUMNS) { 6 } else { COLUMNS };
         let minus_inverse_d = self.inverse_d.map(|x| -x);
         macro_rules! solve_by {
             ($width:ident, $columns:expr) => {
@@ -152,18 +160,24 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
                 for first in $columns.step_by($width) {
                     let Some(columns) = b.get(first..).and_then(<[_]>::first_chunk::<$width>) else { continue };
                     self.write_halfway(columns, &minus_inverse_d, &mut halfway);
-                    for strip in 0..strips(N) {
-                        let factors = |k| row_of(&halfway, k);
-                        let sums: [[T; STRIP]; $width] =
-                            products(&self.r, factors, self.tree.below(strip), strip);
-                        put!(solved: [[_; N]; M], first, strip, sums);
-                    }
+                    by_rows!(T, ROWS = STRIP, {
+                        for part in 0..N.div_ceil(ROWS) {
+                            let terms = self.tree.below(part * ROWS / STRIP);
+                            let sums: [[T; ROWS]; $width] =
+                                products(&self.r, |k| row_of(&halfway, k), terms, part);
+                            put!(solved: [[_; N]; M], first, part, sums);
+                        }
+                    });
                 }
             };
         }
         const SIX: usize = 6;
         const ONE: usize = 1;
-        if width == SIX {
+        // As many columns at a time as leave none for last.
+        if const { has_lanes::<T>() } {
+            solve_by!(FEW_COLUMNS, 0..M / FEW_COLUMNS * FEW_COLUMNS);
+            solve_by!(ONE, M / FEW_COLUMNS * FEW_COLUMNS..M);
+        } else if M.is_multiple_of(SIX) && !M.is_multiple_of(COLUMNS) {
             solve_by!(SIX, 0..M);
         } else {
             solve_by!(COLUMNS, 0..M / COLUMNS * COLUMNS);
@@ -176,9 +190,26 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     #[inline(always)]
     fn write_halfway<const W: usize>(&self, b: &[[T; N]; W], inverse_d: &[T; N], halfway: &mut [[T; N]; W]) {
         let beyond = |strip: usize| self.tree.beyond(strip);
-        multiply(&self.r_transposed, |k| row_of(b, k), beyond, 0..strips(N), halfway);
+        let factors = |k| row_of(b, k);
+        by_rows!(T, ROWS = STRIP, multiply::<T, N, W, ROWS, _>(&self.r_transposed, factors, beyond, halfway));
         for column in halfway {
             scale(column, inverse_d);
+        }
+    }
+
+    /// The derivatives of forward dynamics, as [`forward_from_inverse`](super::forward_from_inverse) says.
+    ///
+    /// Here, with what it calls: where LLVM does not see both together, it makes two of the matrices elsewhere and copies
+    /// them.
+    #[inline(never)]
+    pub(super) fn forward_from_inverse(
+        &self,
+        inverse: &InverseDynamicsDerivatives<T, N>,
+    ) -> ForwardDynamicsDerivatives<T, N> {
+        ForwardDynamicsDerivatives {
+            da_dq: minus_solved(self, &inverse.dtau_dq),
+            da_dv: minus_solved(self, &inverse.dtau_dv),
+            da_dtau: inverse_by(self),
         }
     }
 
@@ -189,6 +220,19 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     }
 }
 
+// On their own, for the stack of unoptimised builds: there each step between is a matrix.
+
+fn minus_solved<T: Scalar, const N: usize>(
+    factors: &Factors<T, N>,
+    b: &SMatrix<T, N, N>,
+) -> SMatrix<T, N, N> {
+    columns(factors.minus_solved(&b.data.0))
+}
+
+fn inverse_by<T: Scalar, const N: usize>(factors: &Factors<T, N>) -> SMatrix<T, N, N> {
+    columns(factors.inverse())
+}
+
 /// The inverse of a symmetric positive definite matrix, of which the rows up to the diagonal are read.
 ///
 /// # Cost
@@ -196,7 +240,9 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
 /// N³/2 multiplications and additions, fused where the target can; N divisions.
 #[inline]
 pub(super) fn inverted<T: Scalar, const N: usize>(m: &[[T; N]; N], tree: &EliminationTree<N>) -> [[T; N]; N] {
-    let (mut l, mut r, mut inverse_d) = (blank(), blank(), [T::one(); N]);
+    let mut l = blank();
+    let mut r = blank();
+    let mut inverse_d = [T::one(); N];
     factor(m, tree, &mut l, &mut r, &mut inverse_d);
     invert_triangular(&l, tree, &mut r);
     inverse(&r, &inverse_d, tree)
@@ -212,20 +258,23 @@ fn inverse<T: Scalar, const N: usize>(
     let mut inverse = blank();
     macro_rules! inverse_by {
         ($width:ident, $columns:expr) => {
+            let mut rows = [[T::zero(); $width]; N];
             for first in $columns.step_by($width) {
-                let factors = |k: usize| {
-                    let mut row: [T; $width] =
-                        r.get(k).map_or([T::zero(); $width], |column| part(column, first));
-                    for x in &mut row {
-                        *x *= entry(inverse_d, k);
+                for k in tree.below(first / STRIP) {
+                    if let (Some(row), Some(column)) = (rows.get_mut(k), r.get(k)) {
+                        *row = part(column, first);
+                        for x in row {
+                            *x *= entry(inverse_d, k);
+                        }
                     }
-                    row
-                };
-                for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
-                    let sums: [[T; LONG_STRIP]; $width] =
-                        products(r, factors, tree.below(first / STRIP), strip);
-                    put!(inverse: [[_; N]; N], first, strip, sums);
                 }
+                let factors = |k: usize| rows.get(k).copied().unwrap_or([T::zero(); $width]);
+                by_rows!(T, ROWS = LONG_STRIP, {
+                    for strip in first / ROWS..N.div_ceil(ROWS) {
+                        let sums: [[T; ROWS]; $width] = products(r, factors, tree.below(first / STRIP), strip);
+                        put!(inverse: [[_; N]; N], first, strip, sums);
+                    }
+                });
             }
         };
     }
@@ -255,16 +304,26 @@ fn factor<T: Scalar, const N: usize>(
     let (blocks, rest) = m.as_chunks::<STRIP>();
     for (k, row) in rest.iter().enumerate().rev() {
         let first = N / STRIP * STRIP + k;
-        factor_rows(core::array::from_ref(row), first, tree, l, minus_dl, inverse_d);
+        let rows = core::array::from_ref(row);
+        by_rows!(
+            T,
+            ROWS = LONG_STRIP,
+            factor_rows::<T, N, 1, ROWS>(rows, first, tree, l, minus_dl, inverse_d)
+        );
     }
     for (block, rows) in blocks.iter().enumerate().rev() {
-        factor_rows(rows, block * STRIP, tree, l, minus_dl, inverse_d);
+        let first = block * STRIP;
+        by_rows!(
+            T,
+            ROWS = LONG_STRIP,
+            factor_rows::<T, N, STRIP, ROWS>(rows, first, tree, l, minus_dl, inverse_d)
+        );
     }
 }
 
 /// The same of the rows from `first` on, which are those of M; all beyond them are known.
 #[inline(always)]
-fn factor_rows<T: Scalar, const N: usize, const W: usize>(
+fn factor_rows<T: Scalar, const N: usize, const W: usize, const S: usize>(
     m: &[[T; N]; W],
     first: usize,
     tree: &EliminationTree<N>,
@@ -296,8 +355,8 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize>(
     }
     let (minus_l, inverses) = factor_block(own);
     inverse_d.copy_from_slice(&inverses);
-    for strip in (0..=first / LONG_STRIP).rev() {
-        let mut rows: [[T; LONG_STRIP]; W] = strip_of(m, strip);
+    for strip in (0..=(end - 1) / S).rev() {
+        let mut rows: [[T; S]; W] = strip_of(m, strip);
         add_products(known, factors, beyond(), strip, &mut rows);
         eliminate(&minus_l, &mut rows);
         let (mut scaled, mut negated) = (rows, rows);
@@ -351,16 +410,16 @@ fn invert_triangular<T: Scalar, const N: usize>(
     inverse: &mut [[T; N]; N],
 ) {
     for k in (N / STRIP * STRIP..N).rev() {
-        invert_columns::<T, N, 1>(l, k, tree, inverse);
+        by_rows!(T, ROWS = LONG_STRIP, invert_columns::<T, N, 1, ROWS>(l, k, tree, inverse));
     }
     for block in (0..N / STRIP).rev() {
-        invert_columns::<T, N, STRIP>(l, block * STRIP, tree, inverse);
+        by_rows!(T, ROWS = LONG_STRIP, invert_columns::<T, N, STRIP, ROWS>(l, block * STRIP, tree, inverse));
     }
 }
 
 /// The same of the columns from `first` on; all after them are known.
 #[inline(always)]
-fn invert_columns<T: Scalar, const N: usize, const W: usize>(
+fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
     l: &[[T; N]; N],
     first: usize,
     tree: &EliminationTree<N>,
@@ -380,16 +439,18 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize>(
     for (w, own) in own.iter_mut().enumerate() {
         *own = minus(first + w);
     }
-    for strip in first / LONG_STRIP..N.div_ceil(LONG_STRIP) {
-        let mut sums = [[T::zero(); LONG_STRIP]; W];
+    // Whatever the rows at a time, the terms are those of a long strip.
+    for part in first / LONG_STRIP * (LONG_STRIP / S)..N.div_ceil(S) {
+        let mut sums = [[T::zero(); S]; W];
         for (w, sums) in sums.iter_mut().enumerate() {
-            set(sums, (first + w).wrapping_sub(strip * LONG_STRIP), T::one());
+            set(sums, (first + w).wrapping_sub(part * S), T::one());
         }
+        let end_of_strip = (part * S / LONG_STRIP + 1) * LONG_STRIP;
         let reaching = tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));
-        let reaching = reaching.take_while(|&k| k + end < (strip + 1) * LONG_STRIP);
-        add_products(known, |k| minus(k + end), reaching, strip, &mut sums);
+        let reaching = reaching.take_while(|&k| k + end < end_of_strip);
+        add_products(known, |k| minus(k + end), reaching, part, &mut sums);
         eliminate(&own, &mut sums);
-        write_strip(columns, strip, &sums);
+        write_strip(columns, part, &sums);
     }
 }
 
@@ -397,14 +458,16 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize>(
 /// diagonal.
 #[inline]
 fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut [[T; N]; N]) {
-    for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate() {
+    // Lanes of a scalar are no rows: one by one.
+    let blocks = if has_lanes::<T>() { 0 } else { N / STRIP };
+    for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate().take(blocks) {
         for (strip, columns_of_result) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().skip(block)
         {
             write_tile(columns_of_result, block, transposed(tile(columns, strip)));
         }
     }
-    for (k, column) in result.iter_mut().enumerate().skip(N / STRIP * STRIP) {
-        for (value, m) in column.iter_mut().zip(m) {
+    for (k, column) in result.iter_mut().enumerate().skip(blocks * STRIP) {
+        for (value, m) in column.iter_mut().zip(m).take((k / STRIP + 1) * STRIP) {
             *value = entry(m, k);
         }
     }

@@ -10,6 +10,8 @@ pub mod leaper;
 use dynamics_core::__private::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, columns, difference_ball, integrate_ball, vector,
 };
+#[cfg(feature = "simd")]
+use dynamics_core::lanes::Lanes;
 use dynamics_core::prelude::*;
 
 pub const G: f64 = 9.81;
@@ -25,6 +27,30 @@ pub fn random_numbers(seed: u64) -> impl FnMut() -> f64 {
 
 pub fn random_vector<const N: usize>(random: &mut impl FnMut() -> f64, size: f64) -> SVector<f64, N> {
     SVector::from_fn(|_, _| size * random())
+}
+
+/// One matrix of as many as there are lanes, and the bits of its entries.
+#[cfg(feature = "simd")]
+pub fn bits_of_lane<L: Lanes<Element = f64>, const R: usize, const C: usize>(
+    m: &SMatrix<L, R, C>,
+    lane: usize,
+) -> SMatrix<u64, R, C> {
+    m.map(|x| {
+        let mut numbers = vec![[0.0]; L::COUNT];
+        L::scatter(&[x], &mut numbers, |number| number);
+        numbers[lane][0].to_bits()
+    })
+}
+
+/// The matrices side by side, one in each lane.
+#[cfg(feature = "simd")]
+pub fn in_lanes_of<L: Lanes<Element = f64>, const R: usize, const C: usize>(
+    matrices: &[SMatrix<f64, R, C>],
+) -> SMatrix<L, R, C> {
+    SMatrix::from_fn(|i, j| {
+        let numbers: Vec<[f64; 1]> = matrices.iter().map(|m| [m[(i, j)]]).collect();
+        L::gather(&numbers, |number| number)[0]
+    })
 }
 
 /// A point mass on a rod about the world's x axis, hanging along −z at q = 0; generic in its scalar.

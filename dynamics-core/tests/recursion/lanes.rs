@@ -1,10 +1,16 @@
 //! The matrices in lanes, against the recursion link by link.
 
 use dynamics_core::__private::recursion::{Drive, Joint, Tree};
+#[cfg(feature = "simd")]
+use dynamics_core::lanes::{Lanes, f64x2, f64x4, f64x8};
 use dynamics_core::prelude::*;
 
+#[cfg(feature = "simd")]
+use super::robots::lifted;
 use super::robots::{Robot, Shape};
-use super::{TOLERANCE, close};
+use super::{TOLERANCE, close, with_stack};
+#[cfg(feature = "simd")]
+use crate::common::{bits_of_lane, in_lanes_of};
 use crate::common::{random_numbers, random_vector};
 
 /// A chain or a tree of joints that move as their coordinates do.
@@ -39,18 +45,57 @@ fn agrees<const N: usize>(tree: &Tree<f64, N, N, N>, seed: u64) {
     close(&ours.dtau_dq, &theirs.dtau_dq, TOLERANCE);
     close(&ours.dtau_dv, &theirs.dtau_dv, TOLERANCE);
     close(&ours.dtau_da, &theirs.dtau_da, TOLERANCE);
+    #[cfg(feature = "simd")]
+    {
+        each_state_has_the_bits_of_one::<f64x2, N>(tree, &mut random);
+        each_state_has_the_bits_of_one::<f64x4, N>(tree, &mut random);
+        each_state_has_the_bits_of_one::<f64x8, N>(tree, &mut random);
+    }
+}
+
+/// Several states as one scalar, for which rows and columns are taken otherwise.
+#[cfg(feature = "simd")]
+fn each_state_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
+    tree: &Tree<f64, N, N, N>,
+    random: &mut impl FnMut() -> f64,
+) {
+    let mut states =
+        || -> Vec<SVector<f64, N>> { (0..L::COUNT).map(|_| random_vector(random, 2.0)).collect() };
+    let (q, v, a) = (states(), states(), states());
+    let wide = lifted::<L, N, N, N>(tree);
+    let (wide, single) = (wide.in_lanes(), tree.in_lanes());
+    let [wide_q, wide_v, wide_a] = [&q, &v, &a].map(|x| in_lanes_of::<L, N, 1>(x));
+    let m = wide.mass_matrix(&wide_q);
+    let c = wide.coriolis_matrix(&wide_q, &wide_v);
+    let derivatives = wide.inverse_dynamics_derivatives(&wide_q, &wide_v, &wide_a);
+    for (lane, ((q, v), a)) in q.iter().zip(&v).zip(&a).enumerate() {
+        let check = |found: &SMatrix<L, N, N>, expected: SMatrix<f64, N, N>| {
+            assert_eq!(bits_of_lane(found, lane), expected.map(f64::to_bits));
+        };
+        check(&m, single.mass_matrix(q));
+        check(&c, single.coriolis_matrix(q, v));
+        let expected = single.inverse_dynamics_derivatives(q, v, a);
+        check(&derivatives.dtau_dq, expected.dtau_dq);
+        check(&derivatives.dtau_dv, expected.dtau_dv);
+        check(&derivatives.dtau_da, expected.dtau_da);
+    }
+}
+
+/// With room for unoptimised code on eight states at once.
+fn chain_agrees<const N: usize>(joints: &'static str, seed: u64) {
+    with_stack(8 << 20, move || agrees(&driven_directly::<N>(joints, Shape::Chain, seed), seed));
 }
 
 #[test]
 fn chains_of_every_length_agree() {
-    agrees(&driven_directly::<0>("R", Shape::Chain, 1), 1);
-    agrees(&driven_directly::<1>("P", Shape::Chain, 2), 2);
-    agrees(&driven_directly::<3>("RPR", Shape::Chain, 3), 3);
-    agrees(&driven_directly::<4>("RRPR", Shape::Chain, 4), 4);
-    agrees(&driven_directly::<5>("RuPpR", Shape::Chain, 5), 5);
-    agrees(&driven_directly::<16>("RPRuR", Shape::Chain, 6), 6);
-    agrees(&driven_directly::<18>("RRP", Shape::Chain, 7), 7);
-    agrees(&driven_directly::<31>("RRRP", Shape::Chain, 8), 8);
+    chain_agrees::<0>("R", 1);
+    chain_agrees::<1>("P", 2);
+    chain_agrees::<3>("RPR", 3);
+    chain_agrees::<4>("RRPR", 4);
+    chain_agrees::<5>("RuPpR", 5);
+    chain_agrees::<16>("RPRuR", 6);
+    chain_agrees::<18>("RRP", 7);
+    chain_agrees::<31>("RRRP", 8);
 }
 
 /// Branches within a group of four, and across several.

@@ -273,28 +273,34 @@ impl<T: Scalar, const N: usize> Additive<T, N> for Wrench<T> {
     }
 }
 
-/// Both at once: their chains of sums run side by side.
-impl<T: Scalar, const N: usize, A: Additive<T, N>, B: Additive<T, N>> Additive<T, N> for (A, B) {
-    type Lanes = (A::Lanes, B::Lanes);
+/// Several at once: their chains of sums run side by side.
+macro_rules! side_by_side {
+    ($($part:ident $place:tt),*) => {
+        impl<T: Scalar, const N: usize, $($part: Additive<T, N>),*> Additive<T, N> for ($($part,)*) {
+            type Lanes = ($($part::Lanes,)*);
 
-    #[inline(always)]
-    fn read((a, b): &Self::Lanes, k: usize) -> Self {
-        (A::read(a, k), B::read(b, k))
-    }
+            #[inline(always)]
+            fn read(all: &Self::Lanes, k: usize) -> Self {
+                ($($part::read(&all.$place, k),)*)
+            }
 
-    #[inline(always)]
-    fn write(self, (a, b): &mut Self::Lanes, k: usize) {
-        self.0.write(a, k);
-        self.1.write(b, k);
-    }
+            #[inline(always)]
+            fn write(self, all: &mut Self::Lanes, k: usize) {
+                $(self.$place.write(&mut all.$place, k);)*
+            }
 
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        (self.0.plus(other.0), self.1.plus(other.1))
-    }
+            #[inline(always)]
+            fn plus(self, other: Self) -> Self {
+                ($(self.$place.plus(other.$place),)*)
+            }
 
-    #[inline(always)]
-    fn shifted(self, offset: Vector<T>) -> Self {
-        (self.0.shifted(offset), self.1.shifted(offset))
-    }
+            #[inline(always)]
+            fn shifted(self, offset: Vector<T>) -> Self {
+                ($(self.$place.shifted(offset),)*)
+            }
+        }
+    };
 }
+
+side_by_side!(A 0, B 1);
+side_by_side!(A 0, B 1, C 2);

@@ -31,12 +31,12 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     pub fn coriolis_matrix(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> SMatrix<T, N, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
-        let (mut velocities, mut composites) =
-            (TwistsInLanes::zero(), (MomentsInLanes::zero(), MomentaInLanes::zero()));
+        let mut velocities = TwistsInLanes::zero();
+        let mut composites = (MomentsInLanes::zero(), MomentaInLanes::zero());
         self.velocities(&placed, entries(v), &mut velocities);
         self.composites(&placed, &velocities, &mut composites);
         let (mut changes, mut nu) = (Changes::zero(), Vectors::zero());
-        by_speed(&placed, &velocities, &composites, &mut changes, &mut nu);
+        by_speed(&placed, &velocities, (&composites.0, &composites.1), &mut changes, &mut nu);
         let mut rows = WrenchesInLanes::zero();
         set_rows(&placed, &composites.0, &mut rows);
         columns(self.pairs(&placed, &rows).changes(&changes, &nu, T::one(), &[]))
@@ -46,12 +46,12 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     pub fn equations_of_motion(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> EquationsOfMotion<T, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
-        let (mut velocities, mut composites) =
-            (TwistsInLanes::zero(), (MomentsInLanes::zero(), MomentaInLanes::zero()));
+        let mut velocities = TwistsInLanes::zero();
+        let mut composites = (MomentsInLanes::zero(), MomentaInLanes::zero());
         self.velocities(&placed, entries(v), &mut velocities);
         self.composites(&placed, &velocities, &mut composites);
         let (mut changes, mut nu) = (Changes::zero(), Vectors::zero());
-        by_speed(&placed, &velocities, &composites, &mut changes, &mut nu);
+        by_speed(&placed, &velocities, (&composites.0, &composites.1), &mut changes, &mut nu);
         let (mut rows, armatures) = (WrenchesInLanes::zero(), self.armatures());
         set_rows(&placed, &composites.0, &mut rows);
         let pairs = self.pairs(&placed, &rows);
@@ -84,27 +84,24 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         self.place(entries(q), &mut placed);
         let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
         self.motions(&placed, entries(v), entries(a), [&mut velocities, &mut accelerations]);
-        let mut bodies = ((MomentsInLanes::zero(), MomentaInLanes::zero()), WrenchesInLanes::zero());
-        let (composites, wrenches) = &mut bodies;
-        self.moments(&placed, &mut composites.0);
-        set_momenta(composites, &velocities);
-        set_wrenches(&composites.0, &velocities, &accelerations, wrenches);
-        self.collect::<((Moments<T>, Momenta<T>), Wrench<T>)>(&placed.offsets, &mut bodies);
-        let (composites, wrenches) = &bodies;
+        let mut bodies = (MomentsInLanes::zero(), MomentaInLanes::zero(), WrenchesInLanes::zero());
+        let (moments, momenta, wrenches) = &mut bodies;
+        self.moments(&placed, moments);
+        set_momenta(moments, &velocities, momenta);
+        set_wrenches(moments, &velocities, &accelerations, wrenches);
+        self.collect::<(Moments<T>, Momenta<T>, Wrench<T>)>(&placed.offsets, &mut bodies);
+        let (moments, momenta, wrenches) = &bodies;
+        let composites = (moments, momenta);
 
         let (mut of_speeds, mut of_places, mut nu) = (Changes::zero(), Changes::zero(), Vectors::zero());
         by_speed(&placed, &velocities, composites, &mut of_speeds, &mut nu);
         by_place(&placed, [&velocities, &accelerations], composites, wrenches, &of_speeds, &mut of_places);
         let mut rows = WrenchesInLanes::zero();
-        set_rows(&placed, &composites.0, &mut rows);
+        set_rows(&placed, moments, &mut rows);
         let (armatures, [slopes_by_place, slopes_by_speed]) =
             (self.armatures(), self.passive_slopes(entries(v)));
         let pairs = self.pairs(&placed, &rows);
-        InverseDynamicsDerivatives {
-            dtau_dq: columns(pairs.changes(&of_places, &nu, T::one(), &slopes_by_place)),
-            dtau_dv: columns(pairs.changes(&of_speeds, &nu, T::of(2.0), &slopes_by_speed)), // ∂τ/∂v = 2C
-            dtau_da: columns(pairs.mass_matrix(&armatures)),
-        }
+        pairs.derivatives([&of_places, &of_speeds], &nu, [&slopes_by_place, &slopes_by_speed], &armatures)
     }
 
     /// Writes 𝕁 and 𝔹 of all that hangs on each joint.
@@ -112,15 +109,15 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         &self,
         placed: &Placed<T, N>,
         velocities: &TwistsInLanes<T, N>,
-        composites: &mut Composites<T, N>,
+        composites: &mut (MomentsInLanes<T, N>, MomentaInLanes<T, N>),
     ) {
         self.moments(placed, &mut composites.0);
-        set_momenta(composites, velocities);
+        set_momenta(&composites.0, velocities, &mut composites.1);
         self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, composites);
     }
 }
 
-type Composites<T, const N: usize> = (MomentsInLanes<T, N>, MomentaInLanes<T, N>);
+type Composites<'a, T, const N: usize> = (&'a MomentsInLanes<T, N>, &'a MomentaInLanes<T, N>);
 
 /// Writes `𝕁 S`: the wrenches of unit motions.
 fn set_rows<T: Scalar, const N: usize>(
@@ -135,8 +132,9 @@ fn set_rows<T: Scalar, const N: usize>(
 
 /// 𝔹 of each link.
 fn set_momenta<T: Scalar, const N: usize>(
-    (moments, momenta): &mut Composites<T, N>,
+    moments: &MomentsInLanes<T, N>,
     velocities: &TwistsInLanes<T, N>,
+    momenta: &mut MomentaInLanes<T, N>,
 ) {
     for k in 0..N {
         Momenta::new(&moments.at(k), velocities.at(k)).write(momenta, k);
@@ -162,7 +160,7 @@ fn set_wrenches<T: Scalar, const N: usize>(
 fn by_speed<T: Scalar, const N: usize>(
     placed: &Placed<T, N>,
     velocities: &TwistsInLanes<T, N>,
-    (moments, momenta): &Composites<T, N>,
+    (moments, momenta): Composites<'_, T, N>,
     changes: &mut Changes<T, N>,
     nu: &mut Vectors<T, N>,
 ) {
@@ -180,7 +178,7 @@ fn by_speed<T: Scalar, const N: usize>(
 fn by_place<T: Scalar, const N: usize>(
     placed: &Placed<T, N>,
     [velocities, accelerations]: [&TwistsInLanes<T, N>; 2],
-    (moments, momenta): &Composites<T, N>,
+    (moments, momenta): Composites<'_, T, N>,
     wrenches: &WrenchesInLanes<T, N>,
     of_speeds: &Changes<T, N>,
     changes: &mut Changes<T, N>,

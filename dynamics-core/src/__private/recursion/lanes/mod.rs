@@ -63,14 +63,18 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     }
 }
 
-/// Three numbers for each of N links.
+/// Three numbers for each of N links. Where N is a power of two, all numbers of a link would lie a power of two apart, of
+/// which a cache keeps few; so a line of it is between one vector's numbers and the next one's.
 #[derive(Clone, Copy)]
-struct Vectors<T, const N: usize>([[T; N]; 3]);
+struct Vectors<T, const N: usize>(
+    [[T; N]; 3],
+    #[allow(dead_code, reason = "it takes place, and nothing else")] [u64; 8],
+);
 
 impl<T: Scalar, const N: usize> Vectors<T, N> {
     #[inline(always)]
     fn zero() -> Self {
-        Self([[T::zero(); N]; 3])
+        Self([[T::zero(); N]; 3], [0; 8])
     }
 
     #[inline(always)]

@@ -2,13 +2,17 @@
 //!
 //! For a few columns at a time all wrenches and twists are counted from the origin of the first of their joints.
 
+use core::ops::Range;
+
 use super::bodies::WrenchesInLanes;
 use super::motion::TwistsInLanes;
 use super::place::Placed;
 use super::{InLanes, Vectors, set};
+use crate::__private::columns;
 use crate::__private::in_place::{blank, mirror, put};
 use crate::__private::recursion::vector::Vector;
-use crate::product::{COLUMNS, STRIP, multiply, products, strips};
+use crate::dynamics::InverseDynamicsDerivatives;
+use crate::product::{COLUMNS, FEW_COLUMNS, STRIP, by_rows, has_lanes, products};
 use crate::scalar::Scalar;
 
 /// A matrix, by columns.
@@ -58,23 +62,33 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
     pub(super) fn mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
         let mut m = blank();
-        let mut rows = with_last([[T::zero(); N]; 6], self.rows.both().1);
+        let mut rows = [[T::zero(); N]; 6];
+        set_last(&mut rows, self.rows.both().1);
         macro_rules! masses_by {
-            ($width:ident, $columns:expr) => {
-                for first in $columns.step_by($width) {
+            ($group:ident, $width:ident, $columns:expr) => {
+                for first in $columns.step_by($group) {
                     // From their first row on.
                     let origin = self.placed.origins.at(first);
-                    self.shift(self.rows.both(), origin, &mut rows);
-                    let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
-                    for strip in first / STRIP..strips(N) {
-                        let sums: [[T; STRIP]; $width] = products(&rows, row_in(&units), 0..6, strip);
-                        put!(m: [[_; N]; N], first, strip, sums);
+                    self.shift(self.rows.both(), origin, first..N, &mut rows);
+                    for part in 0..$group / $width {
+                        let first = first + part * $width;
+                        let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
+                        by_rows!(T, ROWS = STRIP, {
+                            for strip in first / ROWS..N.div_ceil(ROWS) {
+                                let sums: [[T; ROWS]; $width] = products(&rows, row_in(&units), 0..6, strip);
+                                put!(m: [[_; N]; N], first, strip, sums);
+                            }
+                        });
                     }
                 }
             };
         }
-        masses_by!(COLUMNS, 0..N / COLUMNS * COLUMNS);
-        masses_by!(ONE, N / COLUMNS * COLUMNS..N);
+        if const { has_lanes::<T>() } {
+            masses_by!(COLUMNS, FEW_COLUMNS, 0..N / COLUMNS * COLUMNS);
+        } else {
+            masses_by!(COLUMNS, COLUMNS, 0..N / COLUMNS * COLUMNS);
+        }
+        masses_by!(ONE, ONE, N / COLUMNS * COLUMNS..N);
         mirror!(m, N);
         for (i, j) in self.between_branches() {
             m[i][j] = T::zero();
@@ -90,6 +104,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// diagonal; `nu` has what their turns are multiplied with.
     #[inline(never)]
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    #[allow(clippy::modulo_one, reason = "some scalars take one row at a time")]
     pub(super) fn changes(
         &self,
         changes: &Changes<T, N>,
@@ -98,42 +113,59 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         diagonal: &[T],
     ) -> Square<T, N> {
         let mut m = blank();
-        let mut below = with_last([[T::zero(); N]; 9], nu);
+        let mut below = [[T::zero(); N]; 9];
+        set_last(&mut below, nu);
         for (all, force) in below.iter_mut().skip(3).zip(&self.rows.both().1.0) {
             *all = *force;
         }
-        let mut above = with_last([[T::zero(); N]; 6], self.placed.unit_twists().1);
+        let mut above = [[T::zero(); N]; 6];
+        set_last(&mut above, self.placed.unit_twists().1);
         macro_rules! changes_by {
-            ($width:ident, $columns:expr) => {
-                for first in $columns.step_by($width) {
+            ($group:ident, $width:ident, $columns:expr) => {
+                for first in $columns.step_by($group) {
                     let origin = self.placed.origins.at(first);
-                    let start = first / STRIP;
-                    // On the diagonal and below it.
-                    self.shift(self.rows.both(), origin, &mut below);
-                    let moving: [[T; $width]; 9] = self.moving(changes, first, origin, scale);
-                    for strip in start..strips(N) {
-                        let sums: [[T; STRIP]; $width] = products(&below, row_in(&moving), 0..9, strip);
-                        put!(m: [[_; N]; N], first, strip, sums);
-                    }
-                    // Above it; what is in the same strips as what is not is computed apart.
-                    self.shift(self.placed.unit_twists(), origin, &mut above);
-                    let mut forcing: [[T; $width]; 6] = self.shifted(changes.wrenches.both(), first, origin);
-                    scale_all(&mut forcing, scale);
-                    for strip in 0..start {
-                        let sums: [[T; STRIP]; $width] = products(&above, row_in(&forcing), 0..6, strip);
-                        put!(m: [[_; N]; N], first, strip, sums);
-                    }
-                    let near = columns_near(&above, &forcing, start * STRIP);
-                    for (j, near) in near.iter().enumerate() {
-                        for (i, value) in near.iter().enumerate().take(first % STRIP + j) {
-                            m[first + j][start * STRIP + i] = *value;
-                        }
+                    self.shift(self.rows.both(), origin, first..N, &mut below);
+                    self.shift(self.placed.unit_twists(), origin, 0..first + $group, &mut above);
+                    for part in 0..$group / $width {
+                        let first = first + part * $width;
+                        let moving: [[T; $width]; 9] = self.moving(changes, first, origin, scale);
+                        let mut forcing: [[T; $width]; 6] =
+                            self.shifted(changes.wrenches.both(), first, origin);
+                        scale_all(&mut forcing, scale);
+                        by_rows!(T, ROWS = STRIP, {
+                            // On the diagonal and below it.
+                            for strip in first / ROWS..N.div_ceil(ROWS) {
+                                let sums: [[T; ROWS]; $width] = products(&below, row_in(&moving), 0..9, strip);
+                                put!(m: [[_; N]; N], first, strip, sums);
+                            }
+                            // Above it.
+                            for strip in 0..first / ROWS {
+                                let sums: [[T; ROWS]; $width] = products(&above, row_in(&forcing), 0..6, strip);
+                                put!(m: [[_; N]; N], first, strip, sums);
+                            }
+                            // And what is there in the same strips as what is not.
+                            for beyond in 0..$width.div_ceil(ROWS) {
+                                let strip = first / ROWS + beyond;
+                                let sums: [[T; ROWS]; $width] =
+                                    products(&above, row_in(&forcing), 0..6, strip);
+                                for (j, sums) in sums.iter().enumerate() {
+                                    let before = (first % ROWS + j).saturating_sub(beyond * ROWS);
+                                    for (i, value) in sums.iter().enumerate().take(before) {
+                                        m[first + j][strip * ROWS + i] = *value;
+                                    }
+                                }
+                            }
+                        });
                     }
                 }
             };
         }
-        changes_by!(COLUMNS, 0..N / COLUMNS * COLUMNS);
-        changes_by!(ONE, N / COLUMNS * COLUMNS..N);
+        if const { has_lanes::<T>() } {
+            changes_by!(COLUMNS, FEW_COLUMNS, 0..N / COLUMNS * COLUMNS);
+        } else {
+            changes_by!(COLUMNS, COLUMNS, 0..N / COLUMNS * COLUMNS);
+        }
+        changes_by!(ONE, ONE, N / COLUMNS * COLUMNS..N);
         for (i, j) in self.between_branches() {
             m[i][j] = T::zero();
             m[j][i] = T::zero();
@@ -142,6 +174,25 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
             m[k][k] = m[k][k] + *entry;
         }
         m
+    }
+
+    /// The derivatives of inverse dynamics: by places and by speeds from these changes, and `M`.
+    ///
+    /// Here, with what it calls: where LLVM does not see both together, it makes two of the matrices elsewhere and copies
+    /// them.
+    #[inline(never)]
+    pub(super) fn derivatives(
+        &self,
+        [of_places, of_speeds]: [&Changes<T, N>; 2],
+        nu: &Vectors<T, N>,
+        [by_place, by_speed]: [&[T; N]; 2],
+        armatures: &[T; N],
+    ) -> InverseDynamicsDerivatives<T, N> {
+        InverseDynamicsDerivatives {
+            dtau_dq: columns(self.changes(of_places, nu, T::one(), by_place)),
+            dtau_dv: columns(self.changes(of_speeds, nu, T::of(2.0), by_speed)), // ∂τ/∂v = 2C
+            dtau_da: columns(self.mass_matrix(armatures)),
+        }
     }
 
     /// The twists and turns of the changes of W joints, `scale` times.
@@ -161,12 +212,18 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         moving
     }
 
-    /// Writes the moments of wrenches, or the slides of twists, about a common origin into the first three rows: with
-    /// the forces, or the turns, `own + p × other`.
+    /// Writes the moments of wrenches, or the slides of twists, of some joints about a common origin into the first three
+    /// rows: with the forces, or the turns, `own + p × other`.
     #[inline(always)]
-    fn shift(&self, (own, other): (&Vectors<T, N>, &Vectors<T, N>), origin: Vector<T>, rows: &mut [[T; N]]) {
+    fn shift(
+        &self,
+        (own, other): (&Vectors<T, N>, &Vectors<T, N>),
+        origin: Vector<T>,
+        joints: Range<usize>,
+        rows: &mut [[T; N]],
+    ) {
         let [x, y, z, ..] = rows else { return };
-        for k in 0..N {
+        for k in joints.start..joints.end.min(N) {
             let arm = self.placed.origins.at(k) - origin;
             let Vector(moved) = own.at(k) + arm.cross(other.at(k));
             for (all, value) in [&mut *x, y, z].into_iter().zip(moved) {
@@ -215,22 +272,6 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
 /// One column at a time.
 const ONE: usize = 1;
 
-/// What W columns have in the rows from `start` on.
-#[inline(always)]
-fn columns_near<T: Scalar, const N: usize, const W: usize>(
-    above: &[[T; N]; 6],
-    forcing: &[[T; W]; 6],
-    start: usize,
-) -> [[T; COLUMNS]; W] {
-    let mut near = [[T::zero(); COLUMNS]; W];
-    let mut of_near = [[T::zero(); COLUMNS]; 6];
-    for (of_near, row) in of_near.iter_mut().zip(above) {
-        *of_near = part(row, start);
-    }
-    multiply(&of_near, row_in(forcing), |_| 0..6, 0..strips(COLUMNS), &mut near);
-    near
-}
-
 /// Row `k` of K rows.
 #[inline(always)]
 fn row_in<T: Scalar, const W: usize, const K: usize>(rows: &[[T; W]; K]) -> impl Fn(usize) -> [T; W] {
@@ -244,16 +285,12 @@ fn scale_all<T: Scalar, const W: usize, const K: usize>(rows: &mut [[T; W]; K], 
     }
 }
 
-/// The rows, the last three being these.
+/// Writes the last three rows.
 #[inline(always)]
-fn with_last<T: Scalar, const N: usize, const K: usize>(
-    mut rows: [[T; N]; K],
-    last: &Vectors<T, N>,
-) -> [[T; N]; K] {
+fn set_last<T: Scalar, const N: usize>(rows: &mut [[T; N]], last: &Vectors<T, N>) {
     for (row, last) in rows.iter_mut().rev().zip(last.0.iter().rev()) {
         *row = *last;
     }
-    rows
 }
 
 /// K numbers from `first` on; zeros where there are fewer.
