@@ -25,7 +25,7 @@ mod variational;
 pub use adaptive::Adaptive;
 pub use euler::SemiImplicitEuler;
 pub use event::{
-    Arrival, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
+    Arrival, Barrier, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
 };
 pub use flow::{Flow, Vector};
 pub use integrator::{Explicit, Integrator, Method};
