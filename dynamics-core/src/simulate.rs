@@ -20,6 +20,7 @@ mod segment;
 mod tolerances;
 #[cfg(feature = "std")]
 mod trajectory;
+mod turns;
 mod variational;
 
 pub use adaptive::Adaptive;

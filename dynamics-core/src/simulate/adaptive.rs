@@ -20,8 +20,8 @@ use crate::state::{Configuration, State};
 /// the steps too. The input is a closure of time (s) and state that returns the joint forces `τ`; it is asked within
 /// the steps, and never beyond the time to go to. Where it jumps at known times, go to these.
 ///
-/// Energy is kept as well as the tolerances ask for, and no better; [`Variational`](super::Variational) keeps it for
-/// ever.
+/// Energy is kept as well as the tolerances ask for, and no better; [`Variational`](super::Variational) keeps it
+/// from drifting.
 ///
 /// # Example
 ///
