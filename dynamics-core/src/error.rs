@@ -38,7 +38,7 @@ pub enum Error {
     },
     /// The step of time would have to be smaller than its bound, or than what rounding leaves of it, for the error to
     /// meet the tolerances: at a jump of the forces, near a singular configuration, or because the tolerances ask for
-    /// more digits than the scalar has.
+    /// more digits than the scalar has. Or events come at once again and again, and time does not go on.
     StepTooSmall {
         /// When, in s.
         time: f64,

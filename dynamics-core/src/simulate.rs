@@ -20,12 +20,13 @@ mod segment;
 mod tolerances;
 #[cfg(feature = "std")]
 mod trajectory;
+mod turns;
 mod variational;
 
 pub use adaptive::Adaptive;
 pub use euler::SemiImplicitEuler;
 pub use event::{
-    Arrival, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
+    Arrival, Barrier, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, When, when,
 };
 pub use flow::{Flow, Vector};
 pub use integrator::{Explicit, Integrator, Method};

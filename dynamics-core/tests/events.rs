@@ -6,7 +6,7 @@ use crate::common::{Bob, DoublePendulum, G, Pendulum};
 use dynamics_core::__private::{columns, vector};
 use dynamics_core::prelude::*;
 use dynamics_core::simulate::{
-    CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, when,
+    Barrier, CoordinateAt, Direction, Event, JointLimit, PlaneCrossing, TurningPoint, when,
 };
 
 const SWING: Pendulum<f64> = Pendulum { m: 1.0, l: 1.0, damping: 0.0 };
@@ -167,6 +167,77 @@ fn both_limits_are_watched_and_others_never_happen() {
     assert!(arrival.sample.state.q[0].abs() < 1e-12, "{:?}", arrival.sample);
     let free = JointLimit::all::<1>();
     assert!(!swing().advance_until(5.0, &free).expect("it swings").is_event());
+}
+
+/// Of bounces that halve the speed there are more than time can tell apart: they end at `√(2h/g)·(1 + 2(½ + ¼ + …))`.
+#[test]
+fn no_bounce_is_so_low_that_a_joint_gets_through_its_limit() {
+    let mut flight =
+        Adaptive::new(&Ball, State::rest(SVector::from([1.0])), Tolerances::of(1e-12)).expect("valid");
+    let end = 3.0 * (2.0 / G).sqrt();
+    let mut bounces = 0;
+    let error = loop {
+        match flight.advance_until(10.0, &JointLimit::all::<1>()) {
+            Ok(arrival) => assert!(arrival.is_event(), "it fell through to {}", arrival.sample.state.q),
+            Err(error) => break error,
+        }
+        bounces += 1;
+        // Behind the zero by what the time's last bit is at the speed.
+        assert!(flight.state().q[0] > -1e-15, "{:e} at bounce {bounces}", flight.state().q[0]);
+        flight.set_state(State::new(flight.state().q, -0.5 * flight.state().v)).expect("finite");
+    };
+    let Error::StepTooSmall { time } = error else { panic!("{error}") };
+    // Those that rounding sees, and 64.
+    assert!(bounces > 64 + 15 && bounces < 64 + 60, "{bounces}");
+    assert!((time - end).abs() < 1e-6 && flight.time() == time, "{:e}", time - end);
+    // Held, it goes on.
+    let mut held = flight.with_input(|_, _| SVector::from([2.0 * G]));
+    held.set_state(State::rest(held.state().q)).expect("finite");
+    let arrival = held.advance_until(10.0, &JointLimit::all::<1>()).expect("it lies");
+    assert!(!arrival.is_event() && arrival.sample.state.v[0].abs() < 1e-12, "{:?}", arrival.sample);
+}
+
+#[test]
+fn a_state_given_at_a_limit_is_an_event_if_it_goes_on_outwards() {
+    let limits = JointLimit::all::<1>();
+    let from = |q: f64, v: f64| {
+        let start = State::new(SVector::from([q]), SVector::from([v]));
+        let mut flight = Adaptive::new(&Ball, start, Tolerances::of(1e-12)).expect("valid");
+        let first = flight.advance_until(10.0, &limits).expect("it falls");
+        assert!(first.is_event());
+        (first.sample.time, flight)
+    };
+    for (q, v) in [(0.0, 0.0), (0.0, -1.0), (-0.1, -1.0), (-0.1, 0.0), (3.0, 8.0), (3.1, 8.0)] {
+        let (time, mut flight) = from(q, v);
+        assert_eq!((time, flight.state().q[0], flight.state().v[0]), (0.0, q, v));
+        // Whoever knows, and goes on, is not told again: down for ever, or up and back to the lower one.
+        let next = flight.advance_until(2.5, &limits).expect("it flies");
+        assert_eq!(next.is_event(), q >= 3.0, "{:?}", next.sample);
+    }
+    // Inwards, or at rest where its weight pulls it inwards, it flies as long as Galilei says.
+    for (q, v) in [(0.0_f64, 2.0_f64), (3.0, -1.0), (3.0, 0.0), (3.1, -1.0), (-0.1, 2.0)] {
+        let (time, _) = from(q, v);
+        let flight = (v + (v * v + 2.0 * G * q).sqrt()) / G;
+        assert!((time - flight).abs() < 1e-11, "{time} s and {flight} s from {q} m");
+    }
+}
+
+#[test]
+fn other_events_do_not_begin_on_zero_unless_they_are_barriers() {
+    let floor = when(Direction::Falling, |_, x: &State<f64, 1, 1>| x.q[0]);
+    let down = || {
+        let start = State::new(SVector::from([0.0]), SVector::from([-1.0]));
+        Adaptive::new(&Ball, start, Tolerances::of(1e-12)).expect("valid")
+    };
+    assert!(!down().advance_until(1.0, &[floor]).expect("it falls").is_event());
+    let arrival =
+        down().advance_until(1.0, &[Barrier(floor)]).map(|arrival| (arrival.sample.time, arrival.events));
+    assert_eq!(arrival, Ok((0.0, [true])));
+    let both = Barrier(CoordinateAt { index: 0, value: 0.0 });
+    assert!(down().advance_until(1.0, &[&both]).expect("it falls").is_event());
+    // One way only, which is the other one.
+    let rising = Barrier(when(Direction::Rising, |_, x: &State<f64, 1, 1>| x.q[0]));
+    assert!(!down().advance_until(1.0, &[rising]).expect("it falls").is_event());
 }
 
 /// A limit is the same whichever coordinates there are: the second joint of two.

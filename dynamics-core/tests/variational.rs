@@ -108,6 +108,88 @@ fn under_gravity_the_momentum_grows_by_the_weight() {
     }
 }
 
+/// Galilei's parabola and his relativity: whatever a box flies at, it turns as it does at rest.
+#[test]
+fn a_box_about_its_centre_of_mass_turns_alike_at_any_speed() {
+    let robot = FreeBox::new(Vector3::zeros(), FreeBox::tossed().gravity);
+    let about_center = |State { q, v }: &State<f64, 7, 6>| {
+        FreeBox::rotation(q) * (robot.inertia * v.fixed_rows::<3>(3).into_owned())
+    };
+    let mut turned = Vec::new();
+    for speed in [0.0, 100.0, 1000.0] {
+        let mut start = tossed();
+        start.v[0] += speed;
+        let [p, _] = momentum(&robot, &start);
+        let (from, l) = (robot.center_of_mass(&start.q), about_center(&start));
+        let mut simulation =
+            Simulation::new(&robot, start, 1e-2).expect("valid").with_integrator(Variational);
+        for (k, sample) in (1..).zip(simulation.steps(1_000)) {
+            let Sample { time, state, .. } = sample.expect("no speed is too large");
+            let expected = from + p / robot.mass * time + robot.gravity * (0.5 * time * time);
+            // In each step some roundings of the speed, which go on as it does, and of a torque `v × m·v` that is zero.
+            let size = 4.0 * f64::EPSILON * f64::from(k) * (1.0 + speed + 10.0 * time);
+            let error = (robot.center_of_mass(&state.q) - expected).norm();
+            assert!(error < size * (1.0 + time), "{error:e} after {time} s at {speed} m/s");
+            let error = (about_center(&state) - l).norm();
+            assert!(error < size, "{error:e} after {time} s at {speed} m/s");
+        }
+        turned.push(FreeBox::rotation(&simulation.state().q));
+    }
+    for rotation in &turned {
+        // The tumbling makes more of those roundings.
+        assert!((rotation.matrix() - turned[0].matrix()).amax() < 1e-6, "{rotation} is not {}", turned[0]);
+    }
+}
+
+/// Where its frame is elsewhere, the centre of mass goes straight to the order of the method, and so is what is about it.
+#[test]
+fn about_a_centre_of_mass_away_from_the_frame_momentum_is_kept_to_second_order() {
+    let off = |robot: &FreeBox, steps: u32| {
+        let mut simulation = Simulation::new(robot, tossed(), 1.0 / f64::from(steps))
+            .expect("valid")
+            .with_integrator(Variational);
+        let mut monitor = MomentumMonitor::new(&simulation.sample());
+        for sample in simulation.steps(steps as usize) {
+            monitor.observe(&sample.expect("finite"));
+        }
+        monitor.angular()
+    };
+    for robot in [FreeBox::drifting(), FreeBox::tossed()] {
+        let ratio = off(&robot, 200) / off(&robot, 400);
+        assert!((3.8..4.2).contains(&ratio), "{ratio}");
+        assert!(off(&robot, 400) > 1e-6, "it is not kept to rounding");
+    }
+    let centred = FreeBox::new(Vector3::zeros(), FreeBox::tossed().gravity);
+    assert!(off(&centred, 100) < 1e-13);
+}
+
+/// Under gravity along z turns about vertical axes are a symmetry.
+#[test]
+fn the_momentum_about_a_vertical_axis_of_the_world_stays() {
+    let robot = FreeBox::new(FreeBox::tossed().com, Vector3::new(0.0, 0.0, -G));
+    let [_, l] = momentum(&robot, &tossed());
+    let mut simulation = Simulation::new(&robot, tossed(), 1e-2).expect("valid").with_integrator(Variational);
+    for sample in simulation.steps(200) {
+        let [_, angular] = momentum(&robot, &sample.expect("finite").state);
+        assert!((angular.z - l.z).abs() < 1e-12, "{:e}", angular.z - l.z);
+    }
+}
+
+/// What is in the documentation as a step too large: of 10 m, turning by 0.06 rad, with the frame 0.2 m from the centre.
+#[test]
+fn a_free_base_away_from_its_centre_of_mass_can_be_too_fast() {
+    let robot = FreeBox::drifting();
+    let fate = |speed: f64| {
+        let mut start = tossed();
+        start.v[0] += speed;
+        let mut simulation =
+            Simulation::new(&robot, start, 1e-2).expect("valid").with_integrator(Variational);
+        simulation.steps(100).find_map(Result::err)
+    };
+    assert_eq!(fate(10.0), None);
+    assert!(matches!(fate(1000.0), Some(Error::NotConverged { .. })));
+}
+
 #[test]
 fn a_motion_backwards_comes_to_where_it_began() {
     let there = |start| {

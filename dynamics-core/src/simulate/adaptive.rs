@@ -4,7 +4,7 @@ use nalgebra::SVector;
 
 use super::event::{Arrival, Event};
 use super::flow::Driven;
-use super::locate::{self, Moment};
+use super::locate::{self, Beginning, Moment};
 use super::march::March;
 use super::numbers::smaller;
 use super::{Sample, Segment, Tolerances, Unforced, until_error};
@@ -20,8 +20,8 @@ use crate::state::{Configuration, State};
 /// the steps too. The input is a closure of time (s) and state that returns the joint forces `τ`; it is asked within
 /// the steps, and never beyond the time to go to. Where it jumps at known times, go to these.
 ///
-/// Energy is kept as well as the tolerances ask for, and no better; [`Variational`](super::Variational) keeps it for
-/// ever.
+/// Energy is kept as well as the tolerances ask for, and no better; [`Variational`](super::Variational) keeps it
+/// from drifting.
 ///
 /// # Example
 ///
@@ -55,7 +55,13 @@ pub struct Adaptive<'r, R, T, const NQ: usize, const NV: usize, U = Unforced<T, 
     /// Where the simulation is: at the end of the last step, or on it.
     time: T,
     state: State<T, NQ, NV>,
+    beginning: Beginning,
+    /// So many events in a row have come at once.
+    at_once: u32,
 }
+
+/// So many events in a row may come at once, at states that are given for it; then they stand in the way of time.
+const MOST_AT_ONCE: u32 = 64;
 
 impl<'r, R, T, const NQ: usize, const NV: usize> Adaptive<'r, R, T, NQ, NV>
 where
@@ -71,7 +77,7 @@ where
         let march = March::new((state.q, state.v), tolerances)?;
         robot.check_configuration(&state.q)?;
         let input: Unforced<T, NQ, NV> = |_, _| SVector::zeros();
-        Ok(Self { robot, input, march, time: T::zero(), state })
+        Ok(Self { robot, input, march, time: T::zero(), state, beginning: Beginning::Given, at_once: 0 })
     }
 }
 
@@ -85,9 +91,9 @@ where
     where
         W: FnMut(T, &State<T, NQ, NV>) -> SVector<T, NV>,
     {
-        let Self { robot, mut march, time, state, .. } = self;
+        let Self { robot, mut march, time, state, beginning, at_once, .. } = self;
         march.restart(time, (state.q, state.v));
-        Adaptive { robot, input, march, time, state }
+        Adaptive { robot, input, march, time, state, beginning, at_once }
     }
 
     /// The same simulation in steps from `least` to `greatest`, in s; the last one before a given time may be shorter.
@@ -146,7 +152,7 @@ where
     pub fn set_state(&mut self, state: State<T, NQ, NV>) -> Result<(), Error> {
         state.check()?;
         self.robot.check_configuration(&state.q)?;
-        self.state = state;
+        (self.state, self.beginning) = (state, Beginning::Given);
         self.march.restart(self.time, (state.q, state.v));
         Ok(())
     }
@@ -170,12 +176,18 @@ where
     /// function at eight moments of each step, and by which way it turns there: twice within an eighth is seen, and
     /// not more. The time is exact to rounding, on the step's polynomial.
     ///
+    /// Where a state is given at [a barrier](Event::is_barrier), such as a [`JointLimit`](super::JointLimit), and goes on
+    /// from there, that is an event at once, and time does not go on. A bounce that halves the speed each time thus ends
+    /// after a few dozen of them: whoever bounces should hold what has become slow, and after 64 events at one time there
+    /// is an error.
+    ///
     /// Events of several kinds are an array of references: `&[&limit as &dyn Event<_, _, 2, 2>, &floor]`, with `NQ` and
     /// `NV` of the robot.
     ///
     /// # Errors
     ///
-    /// As [`advance_to`](Self::advance_to); [`Error::NotFinite`] of `event` if a function is no number.
+    /// As [`advance_to`](Self::advance_to), with [`Error::StepTooSmall`] of events at one time too; [`Error::NotFinite`] of
+    /// `event` if a function is no number.
     pub fn advance_until<V, const E: usize>(
         &mut self,
         time: T,
@@ -192,8 +204,14 @@ where
             let end = smaller(self.march.time(), time);
             if let Some(segment) = self.march.piece() {
                 let from = Moment { time: self.time, state: self.state };
-                if let Some((moment, events)) = locate::first(self.robot, segment, from, end, events)? {
+                let found = locate::first(self.robot, segment, from, end, self.beginning, events)?;
+                if let Some((moment, events)) = found {
+                    self.at_once = if moment.time > self.time { 0 } else { self.at_once.saturating_add(1) };
+                    if self.at_once > MOST_AT_ONCE {
+                        return Err(Error::StepTooSmall { time: self.time.into() });
+                    }
                     (self.time, self.state) = (moment.time, moment.state);
+                    self.beginning = Beginning::Reached;
                     return Ok(Arrival { sample: self.sample(), events });
                 }
             }
@@ -281,6 +299,7 @@ where
     fn go_to(&mut self, time: T) {
         let (q, v) = self.march.at(time, |q, delta| self.robot.integrate(q, delta));
         (self.time, self.state) = (time, State { q, v });
+        (self.beginning, self.at_once) = (Beginning::Reached, 0);
     }
 
     /// Goes one step on from the end of the last one, and not beyond `until`.

@@ -12,8 +12,8 @@ use crate::state::{Configuration, State};
 
 /// A function of time and state; it happens where that passes through zero.
 ///
-/// A function that begins on zero has not passed it. [`Adaptive::advance_until`](super::Adaptive::advance_until) finds
-/// the moment.
+/// A function that begins on zero has not passed it, unless it is [a barrier](Self::is_barrier).
+/// [`Adaptive::advance_until`](super::Adaptive::advance_until) finds the moment.
 pub trait Event<R, T: Scalar, const NQ: usize, const NV: usize> {
     /// The function; infinite where there is nothing to happen.
     fn value(&self, robot: &R, time: T, state: &State<T, NQ, NV>) -> T;
@@ -21,6 +21,14 @@ pub trait Event<R, T: Scalar, const NQ: usize, const NV: usize> {
     /// Which way it must pass; both ways as provided.
     fn direction(&self) -> Direction {
         Direction::Both
+    }
+
+    /// Whether it is also an event, at once, that a given state is on zero or beyond it and goes on from there.
+    ///
+    /// So of what a motion must not get through: of a state at rest on it that something pushes, and of one thrown back
+    /// so slowly that rounding does not see it leave. No as provided.
+    fn is_barrier(&self) -> bool {
+        false
     }
 }
 
@@ -34,6 +42,37 @@ where
     }
     fn direction(&self) -> Direction {
         (**self).direction()
+    }
+    fn is_barrier(&self) -> bool {
+        (**self).is_barrier()
+    }
+}
+
+/// An event that is [a barrier](Event::is_barrier): a floor that nothing falls through, say.
+///
+/// ```
+/// # use dynamics_core::prelude::*;
+/// # use dynamics_core::simulate::{Barrier, PlaneCrossing};
+/// # fn floor<F>() {
+/// let floor = Barrier(PlaneCrossing::<F, f64>::down_to(0.0));
+/// # }
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct Barrier<V>(pub V);
+
+impl<R, T, V, const NQ: usize, const NV: usize> Event<R, T, NQ, NV> for Barrier<V>
+where
+    T: Scalar,
+    V: Event<R, T, NQ, NV>,
+{
+    fn value(&self, robot: &R, time: T, state: &State<T, NQ, NV>) -> T {
+        self.0.value(robot, time, state)
+    }
+    fn direction(&self) -> Direction {
+        self.0.direction()
+    }
+    fn is_barrier(&self) -> bool {
+        true
     }
 }
 
@@ -60,6 +99,18 @@ impl Direction {
             Self::Both => rises || falls,
         }
     }
+
+    /// Whether it goes on from zero or from beyond, between two values.
+    pub(super) fn goes_on<T: Scalar + PartialOrd>(self, from: T, to: T) -> bool {
+        let zero = T::zero();
+        let up = from >= zero && to > from;
+        let down = from <= zero && to < from;
+        match self {
+            Self::Rising => up,
+            Self::Falling => down,
+            Self::Both => up || down,
+        }
+    }
 }
 
 /// The event of a closure of time and state.
@@ -75,13 +126,16 @@ pub struct When<F> {
 ///
 /// ```
 /// # use dynamics_core::prelude::*;
-/// # use dynamics_core::simulate::{Direction, when};
+/// # use dynamics_core::simulate::{Barrier, Direction, when};
 /// # fn bounce<R: Dynamics<f64, 1, 1> + Configuration<f64, 1, 1>>(ball: &R) -> Result<(), Error> {
-/// let floor = when(Direction::Falling, |_time, ball: &State<f64, 1, 1>| ball.q[0]);
+/// let floor = Barrier(when(Direction::Falling, |_time, ball: &State<f64, 1, 1>| ball.q[0]));
 /// let mut flight = Adaptive::new(ball, State::rest(SVector::from([1.0])), Tolerances::of(1e-9))?;
 /// while flight.advance_until(10.0, &[&floor])?.is_event() {
-///     flight.set_state(State::new(flight.state().q, -0.8 * flight.state().v))?;
-///     # if flight.state().v[0] < 0.1 { break; }
+///     let State { q, v } = *flight.state();
+///     if v[0].abs() < 1e-3 {
+///         break; // it lies
+///     }
+///     flight.set_state(State::new(q, -0.8 * v))?;
 /// }
 /// # Ok(()) }
 /// ```
@@ -105,7 +159,9 @@ where
     }
 }
 
-/// A joint comes to a limit of its coordinate, from inside.
+/// A joint comes to a limit of its coordinate, from inside; or is given a state at the limit, and goes on outwards.
+///
+/// It is [a barrier](Event::is_barrier): no bounce is so low that the joint gets through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct JointLimit {
     speed: usize,
@@ -144,6 +200,9 @@ where
     }
     fn direction(&self) -> Direction {
         Direction::Falling
+    }
+    fn is_barrier(&self) -> bool {
+        true
     }
 }
 

@@ -23,7 +23,15 @@ pub(super) struct Moment<T, const NQ: usize, const NV: usize> {
 /// A moment, and which events have happened then.
 pub(super) type Found<T, const NQ: usize, const NV: usize, const E: usize> = (Moment<T, NQ, NV>, [bool; E]);
 
-/// The first moment after `from` and up to `end` at which an event has happened, and which have.
+/// Whether the search begins where a motion was put, or goes on from where one has come to.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Beginning {
+    Given,
+    Reached,
+}
+
+/// The first moment after `from` and up to `end` at which an event has happened, and which have; `from` itself of
+/// barriers that a given state goes on from.
 ///
 /// It lies behind the zero by rounding, so that the functions have their new signs there, and a search that goes on
 /// from it does not find the same again.
@@ -32,6 +40,7 @@ pub(super) fn first<R, T, V, const NQ: usize, const NV: usize, const E: usize>(
     segment: &Segment<T, NQ, NV>,
     from: Moment<T, NQ, NV>,
     end: T,
+    beginning: Beginning,
     events: &[V; E],
 ) -> Result<Option<Found<T, NQ, NV, E>>, Error>
 where
@@ -52,6 +61,17 @@ where
             crossing(event.direction(), [before.time, time], [*old, *new], |time| value(event, at(time)))
         });
         let crossings: [Option<Crossing<T>>; E] = core::array::from_fn(|_| crossings.next().flatten());
+        if k == 1 && beginning == Beginning::Given {
+            let mut held = events.iter().zip(old.iter().zip(&new)).zip(&crossings);
+            let held = core::array::from_fn(|_| {
+                held.next().is_some_and(|((event, (old, new)), crossing)| {
+                    event.is_barrier() && crossing.is_none() && event.direction().goes_on(*old, *new)
+                })
+            });
+            if held.contains(&true) {
+                return Ok(Some((from, held)));
+            }
+        }
         let earliest = crossings.iter().flatten().map(|crossing| crossing.found);
         if let Some(time) = earliest.reduce(smaller) {
             let moment = at(time);

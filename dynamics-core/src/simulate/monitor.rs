@@ -169,6 +169,8 @@ impl<T: Scalar + PartialOrd, const NQ: usize, const NV: usize> EnergyMonitor<T, 
 /// How far a motion's momenta have gone from those at its start.
 ///
 /// Of a robot that nothing holds or pulls all of them stay; under gravity the angular one about the centre of mass does.
+/// So it is in the motion itself, and in a simulation to the order of the method; what
+/// [`Variational`](super::Variational) keeps to rounding, it says there.
 #[derive(Clone, Copy, Debug)]
 pub struct MomentumMonitor<T> {
     start: Momentum<T>,

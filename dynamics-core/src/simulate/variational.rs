@@ -3,6 +3,7 @@
 use nalgebra::SVector;
 
 use super::numbers::{is_at_most, rounding};
+use super::turns::{Turns, Way};
 use super::{Integrator, Method};
 use crate::dynamics::Dynamics;
 use crate::error::Error;
@@ -12,25 +13,44 @@ use crate::state::{Configuration, State};
 
 /// The variational method of the trapezoidal rule: order 2, symplectic, reversible in time.
 ///
-/// It makes stationary not the action but a sum, `Σ h/2·(L(q₀, ξ/h) + L(q₁, ξ/h))` with `q₁ = q₀ ⊕ ξ`, and is exact for
-/// that. So the energy of an unforced robot swings about its value and does not drift, over any number of steps; and a
-/// momentum that a symmetry conserves (that of a body in free flight, that about a vertical first axis) stays to
-/// rounding. Passive forces and inputs enter as the virtual work that they do at both ends of the step; the input is
-/// asked there, with the mean velocity `ξ/h` of the step in the state.
+/// It makes stationary not the action but a sum, `Σ h/2·(L(q₀, v₀) + L(q₁, v₁))`, and is exact for that. There `v₀` is the
+/// mean velocity of the step: `q₁ = q₀ ⊕ h·λ ⊕ h·ω`, of the slides λ and then the turns ω in it, so that the origin of a
+/// free body's frame goes straight; and `v₁` is the same one in the axes at the end. So the energy of an unforced
+/// robot swings about its value and does not drift, as long as steps are solved and small against the periods of the
+/// motion. Passive forces and inputs enter as the virtual work that they do at both ends of the step; the input is asked
+/// there, with `v₀` and `v₁` in the state.
 ///
-/// A step solves `p₀ = π − h/2·e(q₀)` for ξ, and then `p₁ = π + h/2·e(q₁)`, where `p = M·v`,
-/// `π = ½·(Dᵀ(ξ)·M(q₀) + Dᵀ(−ξ)·M(q₁))·ξ/h`, `D` is the map of [`Configuration::rate`], and
-/// `e(q) = Cᵀ(q, ξ/h)·ξ/h − G + τ − passive forces`. Where M is constant on a vector space that is Störmer's and
-/// Verlet's explicit method.
+/// A step solves `p₀ = π₀ − h/2·e(q₀, v₀)` for `v₀`, and then `p₁ = π₁ + h/2·e(q₁, v₁)`, where `p = M·v`,
+/// `e(q, v) = Cᵀ(q, v)·v − G + τ − passive forces`, and π is `½·(M(q₀)·v₀ + M(q₁)·v₁)`, but for what quaternions bring. Where M
+/// is constant on a vector space that is Störmer's and Verlet's explicit method.
+///
+/// # Momentum
+///
+/// What a symmetry of L conserves stays to rounding, at any step (E. Noether's theorem, of the sum):
+///
+/// - of a robot on a free base without gravity, the linear momentum and the angular one about the world's origin, and so
+///   about any fixed point; under gravity the linear one changes by the weight times the time, and the angular one about
+///   vertical axes of the world stays;
+/// - that of a first joint about a vertical axis;
+/// - of a single free body whose frame is at its centre of mass, the angular one about the centre of mass too, under
+///   gravity too: the centre flies its parabola to rounding, at any speed.
+///
+/// The angular momentum about the centre of mass of any other robot is kept to the order of the method only, and by what
+/// the free base flies at, less well: the theorem holds of what translations and turns conserve, and the centre of
+/// mass then does not go exactly where the momentum says.
 ///
 /// # Errors
 ///
-/// [`Error::NotConverged`] if a step is so large that its equations are not solved: about where the mass matrix
-/// or the forces of dampers change their size within it.
+/// [`Error::NotConverged`] if a step is so large that its equations are not solved: about where the mass matrix or the
+/// forces of dampers change their size within it, as that of a universal joint does near where its axes fold together;
+/// where bodies or joints turn by more than about a radian within it; and where a free base flies so fast that
+/// `h²·|v|·|ω|·r` comes to the square of its radius of gyration, for the distance r of its frame from the centre of mass of
+/// the robot. For a single body with the frame there, no speed is too large.
 ///
 /// # Cost
 ///
-/// Two inverses of M; and, some 3 to 8 times, `mass_matrix`, `coriolis_matrix` and `passive_forces`.
+/// Two inverses of M; and, some 3 to 8 times, `mass_matrix`, `coriolis_matrix` and `passive_forces`. Once per step,
+/// `2·NV` times `rate`, by which it finds out which speeds turn quaternions.
 ///
 /// # Source
 ///
@@ -73,17 +93,16 @@ impl Integrator for Variational {
         let floor = (dot(&weight, &product(&inverse, &weight)) + dot(&pushed, &product(&inverse, &pushed)))
             * (step * step);
 
+        let turns = Turns::of(robot);
         let mut v = state.v; // ξ/h
         let mut last = None;
         for iterations in 1..=MOST_ITERATIONS {
-            let xi = v * step;
+            let way = turns.way(robot, &state.q, &v, step);
             let ours = product(&mass_matrix, &v);
-            let theirs = product(&robot.mass_matrix(&robot.integrate(&state.q, &xi)), &v);
-            let mean =
-                (robot.rate_transposed(&xi, &ours) + robot.rate_transposed(&-xi, &theirs)) * T::of(0.5);
+            let theirs = product(&robot.mass_matrix(&way.q), &way.v);
             let inertial = transposed_product(&robot.coriolis_matrix(&state.q, &v), &v);
             let kick = (inertial - weight + force(time, &state.q, &v)) * half;
-            let residual = momentum + kick - mean;
+            let residual = momentum + kick - turns.mean_momentum(robot, &way, [&ours, &theirs]);
             let correction = product(&inverse, &residual);
             v += correction;
             let finite = Error::unless_finite("v", &v);
@@ -93,10 +112,11 @@ impl Integrator for Variational {
             let error = dot(&residual, &correction);
             let size = floor + dot(&momentum, &state.v) + dot(&v, &product(&mass_matrix, &v));
             if is_solved(error, last, size) {
-                let q = robot.integrate(&state.q, &(v * step));
+                let way @ Way { q, v, .. } = turns.way(robot, &state.q, &v, step);
                 let inertial = transposed_product(&robot.coriolis_matrix(&q, &v), &v);
-                let kicks = kick + (inertial - robot.gravity_forces(&q) + force(time + step, &q, &v)) * half;
-                return Ok(State { q, v: velocity(robot, &q, &(momentum + kicks)) });
+                let carried = turns.carried_momentum(robot, &way, &(momentum + kick), [&ours, &theirs]);
+                let last_kick = (inertial - robot.gravity_forces(&q) + force(time + step, &q, &v)) * half;
+                return Ok(State { q, v: velocity(robot, &q, &(carried + last_kick)) });
             }
             last = Some(error);
         }
