@@ -41,11 +41,11 @@ use crate::state::{Configuration, State};
 ///
 /// # Errors
 ///
-/// [`Error::NotConverged`] if a step is so large that its equations are not solved: about where the mass matrix or the
-/// forces of dampers change their size within it, as that of a universal joint does near where its axes fold together;
-/// where bodies or joints turn by more than about a radian within it; and where a free base flies so fast that
-/// `h²·|v|·|ω|·r` comes to the square of its radius of gyration, for the distance r of its frame from the centre of mass of
-/// the robot. For a single body with the frame there, no speed is too large.
+/// [`Error::NotConverged`] if a step is so large that its equations are not solved: about where the mass matrix, the
+/// forces of dampers or gyroscopic torques change their size within it, as the mass matrix of a universal joint does near
+/// where its axes fold together; and where a free base flies so fast that `h²·|v|·|ω|·r` comes to the square of its radius
+/// of gyration, for the distance r of its frame from the centre of mass of the robot. For a single body with the frame
+/// there, no speed is too large.
 ///
 /// # Cost
 ///
