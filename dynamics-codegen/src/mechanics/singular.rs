@@ -50,7 +50,7 @@ pub fn is_idle_everywhere(tree: &Tree<f64>) -> bool {
 }
 
 /// Whether M has no inverse: a motion moves no mass, or an entry is no number.
-pub(super) fn is_singular(M: &Vec<Vec<f64>>) -> bool {
+pub(super) fn is_singular(M: &[Vec<f64>]) -> bool {
     !is_finite(M) || idle_motion_of(M, &diagonal(M), NOTHING).is_some()
 }
 
@@ -167,7 +167,8 @@ fn diagonal<R: Real>(M: &[Vec<R>]) -> Vec<R> {
 }
 
 fn is_finite<R: Real>(M: &[Vec<R>]) -> bool {
-    M.iter().flatten().all(|&entry| Real::is_zero(entry - entry))
+    let is_within = |size: R| size.is_positive() && !(size - real(f64::MAX)).is_positive();
+    M.iter().flatten().all(|&entry| Real::is_zero(entry) || is_within(magnitude(entry)))
 }
 
 fn magnitude<R: Real>(x: R) -> R {
@@ -197,14 +198,14 @@ mod tests {
         let M = vec![vec![3.0, 0.0], vec![0.0, 1e-9]];
         assert_eq!(idle(&M), None);
         assert!(!is_singular(&M));
-        assert!(is_singular(&vec![vec![3.0, 3.0], vec![3.0, 3.0]]));
-        assert!(is_singular(&vec![vec![f64::NAN]]));
+        assert!(is_singular(&[vec![3.0, 3.0], vec![3.0, 3.0]]));
+        assert!(is_singular(&[vec![f64::NAN]]) && is_singular(&[vec![f64::INFINITY]]));
     }
 
     /// Neither moves mass alone, and both together do: less than none.
     #[test]
     fn a_matrix_that_is_indefinite_has_an_inverse() {
-        assert!(!is_singular(&vec![vec![0.0, 1.0], vec![1.0, 0.0]]));
-        assert!(!is_singular(&vec![vec![1.0, 2.0], vec![2.0, 1.0]]));
+        assert!(!is_singular(&[vec![0.0, 1.0], vec![1.0, 0.0]]));
+        assert!(!is_singular(&[vec![1.0, 2.0], vec![2.0, 1.0]]));
     }
 }
