@@ -2,7 +2,7 @@
 
 use dynamics_codegen::mechanics::equations::{Method, Trait};
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rough, rough};
-use dynamics_codegen::mechanics::singular::idle_motion_at;
+use dynamics_codegen::mechanics::singular::{idle_motion_at, is_idle_everywhere};
 use dynamics_codegen::model::Tree;
 use dynamics_codegen::spec::TermKind::{self, Dissipation, Kinetic, Potential};
 use dynamics_codegen::spec::{RobotSpec, TermSpec};
@@ -19,6 +19,8 @@ pub(crate) enum Absence {
     Massless,
     /// These speeds can be together without moving any mass: M(q) is singular.
     Idle(Vec<String>),
+    /// The same in every configuration, to the digits of a double: what is nothing at all has been refused.
+    AlwaysIdle(Vec<String>),
     /// Some motion has no energy, or less.
     Indefinite,
     /// A term of the energies has no derivative, or no value.
@@ -52,7 +54,12 @@ impl Absence {
             return rough_term(&robot.spec, tree, state, is_kinetic).or(Some(Self::TooLarge));
         }
         if let Some(idle) = idle_motion_at(tree, &state.q) {
-            return Some(Self::Idle(idle.into_iter().map(|k| robot.coordinates.v[k].clone()).collect()));
+            let speeds = idle.into_iter().map(|k| robot.coordinates.v[k].clone()).collect();
+            return Some(if is_idle_everywhere(tree) {
+                Self::AlwaysIdle(speeds)
+            } else {
+                Self::Idle(speeds)
+            });
         }
         Cholesky::of(&mass_matrix).is_none().then_some(Self::Indefinite)
     }
@@ -62,13 +69,10 @@ impl Absence {
         match self {
             Self::TooLong => "the program would be too long".to_owned(),
             Self::Massless => "no body that moves has mass".to_owned(),
-            Self::Idle(speeds) => match speeds.as_slice() {
-                [only] => format!("M(q) is singular, since `{only}` moves no mass"),
-                _ => format!(
-                    "M(q) is singular, since {} can move together without moving any mass",
-                    listed(speeds)
-                ),
-            },
+            Self::Idle(speeds) => format!("M(q) is singular, since {}", idle(speeds)),
+            Self::AlwaysIdle(speeds) => {
+                format!("M(q) is singular to the digits of a double, at every `q`, since {}", idle(speeds))
+            }
             Self::Indefinite => "M(q) is not positive definite".to_owned(),
             Self::Rough(term, why) => format!("`{term}` {why}"),
             Self::TooLarge => "numbers on the way become too large for a double".to_owned(),
@@ -83,6 +87,9 @@ impl Absence {
             Self::Idle(speeds) if speeds.len() == 1 => format!("{other}, where it moves some mass"),
             Self::Idle(_) => {
                 other + "; or, where turns meet in one point, write a `ball` joint, which has no such `q`"
+            }
+            Self::AlwaysIdle(speeds) => {
+                format!("give a body that is moved by {} more mass or inertia", listed(speeds))
             }
             Self::Indefinite => format!("correct the inertias, or {other}"),
             Self::Rough(..) => {
@@ -110,6 +117,14 @@ pub(crate) struct Absent {
 impl From<Absent> for Failure {
     fn from(Absent { method, why }: Absent) -> Self {
         why.problem(&[method.name().to_owned()]).into()
+    }
+}
+
+/// What speeds do that move no mass.
+fn idle(speeds: &[String]) -> String {
+    match speeds {
+        [only] => format!("`{only}` moves no mass"),
+        _ => format!("{} can move together without moving any mass", listed(speeds)),
     }
 }
 

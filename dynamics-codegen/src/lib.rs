@@ -339,14 +339,20 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
     let joints: Vec<_> = moving.filter_map(of_spec).collect();
     let names: Vec<_> = joints.iter().map(|joint| format!("`{}`", joint.name)).collect();
     let message = match names.as_slice() {
-        [only] => format!("the joint {only} moves no inertia in any configuration"),
+        [only] if idle.len() == 1 => format!("the joint {only} moves no inertia in any configuration"),
+        [only] => format!("the joint {only} can move without moving any mass: M is singular"),
         _ => format!(
             "the joints {} can move together without moving any mass: M is singular",
             names.join(", ")
         ),
     };
     let place = joints.first().map_or_else(|| spec.ident.span().into(), |joint| joint.name.place.clone());
-    diags.error(Code::MassMatrixSingular, &place, message);
+    let mistake = Diagnostic::new(Code::MassMatrixSingular, &place, message);
+    diags.push(match names.len() {
+        1 => mistake
+            .help("give a body that it moves more mass or inertia, or use a joint that moves in fewer ways"),
+        _ => mistake,
+    });
 }
 
 /// A recursion over a table of links has no terms.

@@ -213,3 +213,35 @@ fn numbers_whose_products_overflow_are_a_mistake() {
     let output = dynamics_codegen::derive(robot.parse().unwrap(), no_files).to_string();
     assert!(output.contains("NumberOutOfRange"), "{output}");
 }
+
+/// Nothing is wrong with them, and the check that the programs go through must not say so: in UTM coordinates, with a load of
+/// any mass, in any gravity.
+#[test]
+fn no_number_of_a_sound_robot_is_taken_for_a_mistake_of_the_compiler() {
+    const OUTPUTS: &str = "mass_matrix, inverse_mass_matrix, forward_dynamics, forward_dynamics_derivatives,
+        forward_dynamics_with_derivatives, base_regressor, centroidal_momentum_matrix, pose";
+    let arm = |gravity: &str, at: &str, load: &str| {
+        format!(
+            "#[dynamics(gravity = {gravity}, outputs({OUTPUTS}))] #[joint(base: fixed, world -> site, at = {at}, rpy = [0.3, 0.4, 0.5])]
+            #[joint(a: revolute(y), site -> upper)] #[body(upper, solid = rod(2, 0.5, z), com = [0, 0, 0.25])]
+            #[joint(b: revolute(x), upper -> lower, at = [0, 0, 0.5])]
+            #[body(lower, solid = rod(1, 0.4, z), com = [0, 0, 0.2])]
+            #[joint(c: revolute(z), lower -> hand, at = [0, 0, 0.4])]
+            #[body(hand, mass = {load}, com = [0, 0.001, 0.03], inertia = diag(2e-4, 2e-4, 4e-5))] struct Arm;"
+        )
+    };
+    let (earth, here) = ("[0, 0, -9.81]", "[0, 0, 0]");
+    for robot in [
+        arm(earth, "[500000, 5000000, 100]", "0.1"),
+        arm(earth, "[5e15, 5e14, 100]", "0.1"),
+        arm(earth, "[1e200, 0, 0]", "0.1"),
+        arm(earth, here, "1e6"),
+        arm(earth, here, "1e8"),
+        arm("[0, 1e155, -9.81]", here, "0.1"),
+        arm("[0, 1e-170, 0]", here, "0.1"),
+    ] {
+        let robot: TokenStream = robot.parse().unwrap();
+        let output = dynamics_codegen::derive(robot.clone(), no_files).to_string();
+        assert!(!output.contains("compile_error"), "{robot}\n{}", output.split_at(2000).0);
+    }
+}

@@ -12,7 +12,7 @@ use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number, SymbolId};
 
 mod random;
 
-use random::{SHAPES, Shape, State, state, with_terms};
+use random::{SHAPES, Shape, State, near_and_far, state, with_terms};
 
 /// Two ways to one number in doubles. The trees have up to 7 links, so up to some 10³ rounded operations of
 /// 1e-16 each lie on a path, most of them averaging out; the worst seen here is 2e-14.
@@ -91,6 +91,29 @@ fn differences_along(directions: &[Vec<f64>], f: impl Fn(&[f64]) -> Vec<f64>) ->
         })
         .collect();
     (0..columns[0].len()).flat_map(|i| columns.iter().map(move |column| column[i])).collect()
+}
+
+/// Where a tree stands is in no equation of motion. Each number of the one far away is as good as that near by: a way through
+/// the world's origin would lose seven digits.
+#[test]
+fn no_digits_are_lost_far_from_the_worlds_origin() {
+    for seed in 0..60 {
+        let State { tree, q, v, a } = &state(seed, 1 + seed as usize % 7, SHAPES[seed as usize % 3]);
+        let (near, far) = near_and_far(tree);
+        let (near, far) = (Oracle::new(&near), Oracle::new(&far));
+        let same = |what: &str, of: &dyn Fn(&Oracle<'_>) -> Vec<f64>| {
+            assert_close(what, &of(&far), &of(&near), ROUNDING);
+        };
+        same("M", &|oracle| oracle.mass_matrix(q).concat());
+        same("A", &|oracle| oracle.centroidal_momentum_matrix(q).concat());
+        same("momentum", &|oracle| oracle.centroidal_momentum(q, v));
+        for frame in 0..tree.frames.len() {
+            same("J", &|oracle| oracle.body_jacobian(frame, q).concat());
+            same("J of the world", &|oracle| oracle.world_jacobian(frame, q).concat());
+            same("twist", &|oracle| oracle.velocity(frame, q, v));
+            same("rate of the twist", &|oracle| oracle.acceleration(frame, q, v, a));
+        }
+    }
 }
 
 // ---- Oracle = Lagrange -------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 
 use dynamics_codegen::diagnostics::Diagnostics;
 use dynamics_codegen::mechanics::equations::{Argument, Derivation, Input, Method};
+use dynamics_codegen::mechanics::plain::Oracle;
 use dynamics_codegen::model::{self, FieldType, LinkInfo, Model, Tree};
 use dynamics_codegen::passes::{RunTime, compile, disagreements, entries};
 use dynamics_codegen::spatial::{Matrix3, PseudoInertia, Random};
@@ -11,10 +12,12 @@ use dynamics_codegen::symbolic::{Evaluator, Expr, Graph, Number};
 
 mod random;
 
-use random::{SHAPES, State, state, with_terms};
+use random::{SHAPES, State, near_and_far, state, with_terms};
 
 /// Two ways of some hundred operations each; mass matrices of these trees have conditions of some thousands.
 const ROUNDING: f64 = 1e-10;
+/// The same without a mass matrix to solve with.
+const CLOSE: f64 = 1e-13;
 
 fn constant<'g>(x: f64) -> Expr<'g> {
     Number::from_f64(x).expect("random numbers are finite").into()
@@ -54,6 +57,35 @@ fn programs_compute_what_the_oracle_says_of_random_trees() {
         let found = disagreements(&model, &compiled);
         let motions: Vec<_> = tree.links.iter().map(|link| link.motion).collect();
         assert!(found.is_empty(), "tree {seed} of {motions:?}: {found:?}");
+    }
+}
+
+/// The momentum about the centre of mass is that of the same robot anywhere, to the last digits.
+#[test]
+fn momenta_are_the_same_wherever_a_robot_stands() {
+    for seed in 0..24 {
+        let State { tree, q, v, .. } = state(5000 + seed, 1 + seed as usize % 6, SHAPES[seed as usize % 3]);
+        let (near, far) = near_and_far(&tree);
+        let graph = Graph::new();
+        let model = model_of(&far, seed);
+        let methods = [Method::CentroidalMomentum, Method::CentroidalMomentumMatrix];
+        let compiled = compile(&model, &graph, &methods, RunTime::Core);
+        let found = methods.map(|method| {
+            let program = compiled.program(method).expect("it is short");
+            let input = |input| match input {
+                Input::Argument(Argument::Q, k) => q[k],
+                Input::Argument(Argument::V, k) => v[k],
+                Input::Argument(..) | Input::Parameter(_) => f64::NAN,
+            };
+            program.evaluate(input, &[])
+        });
+        let oracle = Oracle::new(&near);
+        let expected = [oracle.centroidal_momentum(&q, &v), oracle.centroidal_momentum_matrix(&q).concat()];
+        for (found, expected) in found.iter().zip(&expected) {
+            let size = expected.iter().fold(1.0, |size: f64, x| size.max(x.abs()));
+            let missed = expected.iter().zip(found).fold(0.0, |most: f64, (x, y)| most.max((x - y).abs()));
+            assert!(missed <= CLOSE * size, "tree {seed} is off by {missed:e} of {size:e}");
+        }
     }
 }
 

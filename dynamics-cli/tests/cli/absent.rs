@@ -20,6 +20,13 @@ const ROBOTS: &str = r#"
     struct Polar;
 
     #[derive(Dynamics)]
+    #[joint(x: prismatic(x), world -> a, armature = 1e-18kg)] #[body(a)]
+    #[joint(y: prismatic(y), a -> b)] #[body(b)]
+    #[joint(t: revolute(z), b -> c)]
+    #[body(c, solid = point(4), com = [0.25, 0.34, 0.34])]
+    struct Light;
+
+    #[derive(Dynamics)]
     #[joint(t: translation, world -> b)] #[body(b, solid = sphere(1, 0.1))]
     #[potential(3N_per_m / 2 * (distance(b, world) - 1)^2)]
     struct Tied;
@@ -67,6 +74,19 @@ fn what_needs_no_inverse_has_its_value_where_there_is_none() {
         complaint.contains("`a` has no value") && complaint.contains("`theta` moves no mass"),
         "{complaint}"
     );
+}
+
+/// There is no other `q` to choose.
+#[test]
+fn where_doubles_lose_a_mass_everywhere_the_remedy_is_mass() {
+    for q in ["{}", r#"{"q": [1, 2, 3]}"#] {
+        let (values, complaint) = partly(on("Light", &["eval", "--only", "a,M", "--state", q]));
+        assert!(values["a"].is_null() && values["M"].is_array(), "{values}");
+        let expected = "M(q) is singular to the digits of a double, at every `q`, since `x`, `y` and `t` can move together";
+        assert!(complaint.contains(expected) && !complaint.contains("choose another"), "{complaint}");
+        let remedy = "give a body that is moved by `x`, `y` and `t` more mass or inertia";
+        assert!(complaint.contains(remedy), "{complaint}");
+    }
 }
 
 #[test]

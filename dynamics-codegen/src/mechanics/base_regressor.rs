@@ -177,9 +177,28 @@ fn sampled<'g, R: Real>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set:
 }
 
 /// For each vector that is a combination of those before it, the shares of all of them in it.
-///
+fn combinations<R: Real>(mut vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>> {
+    let units: Vec<R> = vectors.iter().map(|vector| unit_of(vector)).collect();
+    for (vector, &unit) in vectors.iter_mut().zip(&units) {
+        vector.iter_mut().for_each(|x| *x = *x / unit);
+    }
+    let in_units = |(shares, &unit): (Option<Vec<R>>, &R)| {
+        Some(shares?.into_iter().zip(&units).map(|(share, &other)| share * unit / other).collect())
+    };
+    combinations_of_moderate(vectors).into_iter().zip(&units).map(in_units).collect()
+}
+
+/// One, or the largest magnitude where squares would be too large or too small for a double.
+fn unit_of<R: Real>(vector: &[R]) -> R {
+    let magnitude = |x: &R| if x.is_positive() { *x } else { -*x };
+    let larger = |x: R, y: R| if (y - x).is_positive() { y } else { x };
+    let largest = vector.iter().map(magnitude).fold(R::from(0), larger);
+    let is_moderate = |x: R| (x - real(1e-100)).is_positive() && (real::<R>(1e100) - x).is_positive();
+    if largest.is_zero() || is_moderate(largest) { R::from(1) } else { largest }
+}
+
 /// Gram–Schmidt, twice for what rounding leaves the first time; G. Golub, C. Van Loan 2013, ch. 5.2.
-fn combinations<R: Real>(vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>> {
+fn combinations_of_moderate<R: Real>(vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>> {
     let subtract = |x: &mut [R], k: R, y: &[R]| x.iter_mut().zip(y).for_each(|(x, &y)| *x = *x - k * y);
     let n = vectors.len();
     // Orthonormal directions, and what each is made of.

@@ -49,7 +49,7 @@ pub fn centroidal_momentum<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S]) -
     let velocity = velocities(tree, &joints, qd);
     let momenta = tree.links.iter().zip(velocity).map(|(link, v)| wrench_of(&link.inertia, v.twist()));
     let collected = collect_tip_to_base(tree, &joints, momenta.collect());
-    let poses = link_poses(tree, &joints);
+    let poses = poses_by_first(tree, q);
     let center = center(tree, &poses);
     let roots = tree.links.iter().enumerate().filter(|(_, link)| link.parent.is_none());
     let total = roots.fold(Wrench::zero(), |sum, (k, _)| sum + about(collected[k], poses[k], center));
@@ -64,13 +64,29 @@ pub fn centroidal_momentum_matrix<S: Scalar>(tree: &NormalTree<S>, q: &[S]) -> S
 /// The momentum of all that moves at each column's unit speed, about the centre of mass.
 fn column_momenta<S: Scalar>(tree: &NormalTree<S>, q: &[S]) -> Vec<Wrench<S>> {
     let joints = tree.place(q);
-    let (composites, poses) = (composite_inertias(tree, &joints), link_poses(tree, &joints));
+    let (composites, poses) = (composite_inertias(tree, &joints), poses_by_first(tree, q));
     let center = center(tree, &poses);
     let momentum = |link: usize, twist| about(wrench_of(&composites[link], twist), poses[link], center);
     tree.columns.iter().map(|column| momentum(column.link, column.direction.twist())).collect()
 }
 
-/// A wrench, or a momentum, of a link about a point of the world, in world axes.
+/// The poses of all links at `q` in axes parallel to the world's whose origin is that of the first link. Where the robot as a
+/// whole is takes no digits from where its links are against each other.
+fn poses_by_first<S: Scalar>(tree: &NormalTree<S>, q: &[S]) -> Vec<Pose<S>> {
+    let mut tree = NormalTree { base: Pose::rotation(tree.base.rotation), ..tree.clone() };
+    let start = tree.links.first().map_or(Vector3::zero(), |link| link.position);
+    for link in tree.links.iter_mut().filter(|link| link.parent.is_none()) {
+        link.position = link.position - start;
+    }
+    let mut joints = tree.place(q);
+    let moved = joints.first().map_or(Vector3::zero(), |joint| joint.position);
+    for (_, joint) in tree.links.iter().zip(&mut joints).filter(|(link, _)| link.parent.is_none()) {
+        joint.position = joint.position - moved;
+    }
+    link_poses(&tree, &joints)
+}
+
+/// A wrench, or a momentum, of a link about a point, in world axes.
 fn about<S: Scalar>(wrench: Wrench<S>, pose: Pose<S>, point: Vector3<S>) -> Wrench<S> {
     let F = pose.rotation * wrench.F;
     Wrench { F, N: pose.rotation * wrench.N + (pose.translation - point).cross(F) }

@@ -203,6 +203,22 @@ pub(crate) fn state(seed: u64, n: usize, shape: Shape) -> State {
     State { tree, q, v: random.numbers(n, 2.0), a: random.numbers(n, 4.0) }
 }
 
+/// A tree, and the same tree in a place given by the coordinates that surveyors use. What rounding takes from it there is
+/// taken from it here too.
+#[allow(dead_code, reason = "some tests have no use for it")]
+pub(crate) fn near_and_far(tree: &Tree<f64>) -> (Tree<f64>, Tree<f64>) {
+    let moved = |tree: &Tree<f64>, by: Vector3<f64>| {
+        let mut tree = tree.clone();
+        for link in tree.links.iter_mut().filter(|link| link.parent.is_none()) {
+            link.placement.translation = link.placement.translation + by;
+        }
+        tree
+    };
+    let place = Vector3([500_000.0, 5_000_000.0, 100.0]);
+    let far = moved(tree, place);
+    (moved(&far, -place), far)
+}
+
 /// The same robot, with terms in its energies.
 #[allow(dead_code, reason = "some tests have no use for it")]
 pub(crate) fn with_terms(mut state: State, seed: u64) -> State {

@@ -69,5 +69,7 @@ pub(super) fn linear<'g>(
 /// Whether M has no inverse, with values of their size for the fields.
 fn has_no_inverse<'g>(model: &Model<'g>, graph: &'g Graph, M: &[Vec<Expr<'g>>]) -> bool {
     let mut evaluator = Evaluator::new(graph, |symbol| model.parameters[symbol.0 as usize].sample);
-    is_singular(&M.iter().map(|row| row.iter().map(|&entry| evaluator.value(entry)).collect()).collect())
+    let M: Vec<Vec<f64>> =
+        M.iter().map(|row| row.iter().map(|&entry| evaluator.value(entry)).collect()).collect();
+    is_singular(&M)
 }

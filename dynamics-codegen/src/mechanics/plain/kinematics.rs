@@ -43,12 +43,34 @@ pub(super) fn joint_motion<S: Scalar>(link: &Link<S>, v: &[S]) -> Six<S> {
     motion_subspace(link).into_iter().fold(Six::zero(), |sum, (k, S_B)| sum + S_B.scale(v[k]))
 }
 
+/// `X_PB(q)` of every link.
+pub(super) fn poses_in_parents<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Pose<S>> {
+    tree.links.iter().map(|link| pose_in_parent(link, q)).collect()
+}
+
 /// `X_WB` of every link.
 pub fn link_poses<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Pose<S>> {
-    let mut poses: Vec<Pose<S>> = Vec::with_capacity(tree.links.len());
-    for link in &tree.links {
-        let X_WP = link.parent.map_or_else(Pose::identity, |parent| poses[parent]);
-        poses.push(X_WP * pose_in_parent(link, q));
+    poses_from(Pose::identity(), &tree.links, q)
+}
+
+/// `X_AB` of every link, in axes A parallel to the world's whose origin is that of the first link. Where the robot as a whole is
+/// takes no digits from where its links are against each other.
+pub(super) fn link_poses_by_first<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Pose<S>> {
+    let Some(first) = tree.links.first() else { return Vec::new() };
+    let mut links = tree.links.clone();
+    for link in links.iter_mut().filter(|link| link.parent.is_none()) {
+        link.placement.translation = link.placement.translation - first.placement.translation;
+    }
+    let moved = pose_in_parent(&links[0], q).translation;
+    poses_from(Pose::translation(-moved), &links, q)
+}
+
+/// `X_AB` of every link, with the world at `X_AW`.
+fn poses_from<S: Scalar>(X_AW: Pose<S>, links: &[Link<S>], q: &[S]) -> Vec<Pose<S>> {
+    let mut poses: Vec<Pose<S>> = Vec::with_capacity(links.len());
+    for link in links {
+        let X_AP = link.parent.map_or(X_AW, |parent| poses[parent]);
+        poses.push(X_AP * pose_in_parent(link, q));
     }
     poses
 }
@@ -71,33 +93,34 @@ pub fn pose<S: Scalar>(tree: &Tree<S>, frame: &Frame<S>, q: &[S]) -> Pose<S> {
 
 /// The Jacobian of a frame, 6×n, linear rows first: its velocity against the world, in its own axes.
 pub fn body_jacobian<S: Scalar>(tree: &Tree<S>, frame: &Frame<S>, q: &[S]) -> Vec<Vec<S>> {
-    let poses = link_poses(tree, q);
-    let X_FW = (link_pose(&poses, frame.link) * frame.pose).inverse();
-    rows_of(&jacobian_columns(tree, &poses, frame.link, X_FW))
+    rows_of(&jacobian_columns(tree, &poses_in_parents(tree, q), frame.link, frame.pose.inverse()))
 }
 
 /// The Jacobian of a frame, 6×n, linear rows first: its velocity against the world, in axes parallel to the
 /// world's. The linear part is that of the frame's own origin.
 pub fn world_jacobian<S: Scalar>(tree: &Tree<S>, frame: &Frame<S>, q: &[S]) -> Vec<Vec<S>> {
-    let poses = link_poses(tree, q);
-    let p_WF = (link_pose(&poses, frame.link) * frame.pose).translation;
-    rows_of(&jacobian_columns(tree, &poses, frame.link, Pose::translation(-p_WF)))
+    // From the link to the frame's origin, in its axes, and into those of the world.
+    let R_WB = Pose::rotation(link_pose(&link_poses(tree, q), frame.link).rotation);
+    let X_EB = R_WB * Pose::translation(-frame.pose.translation);
+    rows_of(&jacobian_columns(tree, &poses_in_parents(tree, q), frame.link, X_EB))
 }
 
-/// The columns `Ad(X_EW X_WB) S_B` of all joints between `carrier` and the world, added where joints share a speed,
-/// and zero for the others.
+/// The columns `Ad(X_EB) S_B` of all joints between `carrier` and the world, added where joints share a speed, and zero
+/// for the others. The way is from link to link, by their `poses` in their parents, and not by the world, where digits are
+/// lost that grow with the distance from it.
 pub(super) fn jacobian_columns<S: Scalar>(
     tree: &Tree<S>,
     poses: &[Pose<S>],
     carrier: Option<usize>,
-    X_EW: Pose<S>,
+    mut X_EB: Pose<S>,
 ) -> Vec<Six<S>> {
     let mut columns = vec![Six::zero(); tree.dof()];
     let mut link = carrier;
     while let Some(k) = link {
         for (speed, S_B) in motion_subspace(&tree.links[k]) {
-            columns[speed] = columns[speed] + Matrix6::adjoint(X_EW * poses[k]) * S_B;
+            columns[speed] = columns[speed] + Matrix6::adjoint(X_EB) * S_B;
         }
+        X_EB = X_EB * poses[k].inverse();
         link = tree.links[k].parent;
     }
     columns

@@ -4,20 +4,20 @@
 //! dynamics, with which it can then be compared.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use super::kinematics::{jacobian_columns, link_poses};
+use super::kinematics::{jacobian_columns, poses_in_parents};
 use super::passive;
 use super::six::{Matrix6, Six};
 use super::terms;
 use crate::model::Tree;
-use crate::spatial::Scalar;
+use crate::spatial::{Pose, Scalar};
 
 /// `M(q) = Σ J_Bᵀ M_B J_B` over all links, the rotors, and terms, n×n, both halves.
 pub fn mass_matrix<S: Scalar>(tree: &Tree<S>, q: &[S]) -> Vec<Vec<S>> {
-    let poses = link_poses(tree, q);
+    let poses = poses_in_parents(tree, q);
     let mut M = vec![vec![S::zero(); tree.dof()]; tree.dof()];
     for (k, link) in tree.links.iter().enumerate() {
         let M_B = Matrix6::inertia(&link.inertia);
-        let columns = jacobian_columns(tree, &poses, Some(k), poses[k].inverse());
+        let columns = jacobian_columns(tree, &poses, Some(k), Pose::identity());
         // Of the other joints the link feels nothing.
         let J_B: Vec<(usize, Six<S>)> =
             columns.into_iter().enumerate().filter(|(_, column)| !column.is_zero()).collect();
