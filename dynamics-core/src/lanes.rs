@@ -60,6 +60,8 @@ pub trait Lanes: Scalar + From<Self::Element> {
     );
 }
 
+// Operators are not always to be inlined: LLVM simplifies what it decides about before it is put into a method by the
+// thousand, which takes it half the time. What lays lanes out is: there it decides wrongly.
 macro_rules! lanes {
     ($name:ident: $count:literal x $float:ident, $sign:literal, $edge:literal, $sin_cos:path) => {
         #[doc = concat!("`", stringify!($count), "` numbers of `", stringify!($float), "` side by side.")]
@@ -187,7 +189,7 @@ macro_rules! lanes {
             type Element = $float;
             const COUNT: usize = $count;
 
-            #[inline]
+            #[inline(always)]
             fn gather<S, const N: usize>(states: &[S], row: impl Fn(&S) -> &[$float; N]) -> [Self; N] {
                 match states.first_chunk::<$count>() {
                     Some(block) => lanes_of_rows::<_, _, _, _, _, $edge>(block, row),
@@ -200,7 +202,7 @@ macro_rules! lanes {
                 }
             }
 
-            #[inline]
+            #[inline(always)]
             fn scatter<S, const N: usize>(
                 lanes: &[Self; N],
                 states: &mut [S],
