@@ -135,7 +135,9 @@ fn exact_shares<'g>(
     let solved = || {
         let involved: Vec<&[Expr<'g>]> = parts.iter().chain([&place]).map(|&at| columns[at]).collect();
         let digits: Option<Vec<Number>> = combinations(sampled(&involved, symbols, 1)).pop().flatten();
-        digits.unwrap_or_else(|| parts.iter().map(|&at| real(shares[at])).chain([Number::ZERO]).collect())
+        digits.unwrap_or_else(|| {
+            parts.iter().map(|&at| Number::of_double(shares[at])).chain([Number::ZERO]).collect()
+        })
     };
     parts.iter().copied().zip(known.unwrap_or_else(solved)).collect()
 }
@@ -160,9 +162,9 @@ fn sampled<'g, R: Real>(columns: &[&[Expr<'g>]], symbols: &Symbols<'_, 'g>, set:
     for state in 0..columns.len() + 4 {
         // Parameters come first among the symbols, and are the same in every state.
         let mut fields = Random(set);
-        let mut values: Vec<R> = (0..parameters).map(|_| real(1.1 + 0.5 * fields.next())).collect();
+        let mut values: Vec<R> = (0..parameters).map(|_| R::of_double(1.1 + 0.5 * fields.next())).collect();
         let mut random = Random(100 + state as u64);
-        values.extend((0..coordinates + 3 * dof).map(|_| real::<R>(2.5 * random.next())));
+        values.extend((0..coordinates + 3 * dof).map(|_| R::of_double(2.5 * random.next())));
         for at in symbols.quaternions {
             let quaternion = &mut values[parameters + at..][..4];
             let length = dot(quaternion, quaternion).sqrt();
@@ -190,10 +192,9 @@ fn combinations<R: Real>(mut vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>> {
 
 /// One, or the largest magnitude where squares would be too large or too small for a double.
 fn unit_of<R: Real>(vector: &[R]) -> R {
-    let magnitude = |x: &R| if x.is_positive() { *x } else { -*x };
-    let larger = |x: R, y: R| if (y - x).is_positive() { y } else { x };
-    let largest = vector.iter().map(magnitude).fold(R::from(0), larger);
-    let is_moderate = |x: R| (x - real(1e-100)).is_positive() && (real::<R>(1e100) - x).is_positive();
+    let largest = vector.iter().map(|x| x.magnitude()).fold(R::from(0), R::larger);
+    let [least, most] = [1e-100, 1e100].map(R::of_double);
+    let is_moderate = |x: R| (x - least).is_positive() && (most - x).is_positive();
     if largest.is_zero() || is_moderate(largest) { R::from(1) } else { largest }
 }
 
@@ -216,7 +217,7 @@ fn combinations_of_moderate<R: Real>(vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>
             }
         }
         let length = dot(&left, &left).sqrt();
-        if (length - real::<R>(NOTHING) * size).is_positive() {
+        if (length - R::of_double(NOTHING) * size).is_positive() {
             [&mut left, &mut made_of].into_iter().flatten().for_each(|x| *x = *x / length);
             basis.push((left, made_of));
             found.push(None);
@@ -230,11 +231,6 @@ fn combinations_of_moderate<R: Real>(vectors: Vec<Vec<R>>) -> Vec<Option<Vec<R>>
 
 fn dot<R: Real>(x: &[R], y: &[R]) -> R {
     x.iter().zip(y).fold(R::from(0), |sum, (&x, &y)| sum + x * y)
-}
-
-/// A double in numbers of any precision.
-fn real<R: Real>(x: f64) -> R {
-    R::of(Number::from_f64(x).unwrap_or(Number::ZERO))
 }
 
 /// Adds to a column's parameter its share in another that goes. Names have twelve digits of it.

@@ -56,7 +56,7 @@ pub(super) fn is_singular(M: &[Vec<f64>]) -> bool {
 
 /// The tree with the sample values of the parameters.
 fn sampled<R: Real>(model: &Model<'_>, graph: &Graph) -> Tree<R> {
-    let sample = |symbol: SymbolId| real(model.parameters[symbol.0 as usize].sample);
+    let sample = |symbol: SymbolId| R::of_double(model.parameters[symbol.0 as usize].sample);
     let mut evaluator = Evaluator::new(graph, sample);
     model.tree.map(|expr| evaluator.value(expr))
 }
@@ -66,10 +66,10 @@ fn idle_in<R: Real>(tree: &Tree<R>, state: usize, nothing: f64) -> Option<Vec<us
     // Irrational steps: no angle is like another, and none is a right one.
     let size = tree.coordinates();
     let angle = |k: usize| (0.7 + 1.618_034 * (state * size + k) as f64) % 3.0;
-    let mut q: Vec<R> = (0..size).map(|k| real(angle(k))).collect();
+    let mut q: Vec<R> = (0..size).map(|k| R::of_double(angle(k))).collect();
     tree.normalise(&mut q);
     let M = Oracle::new(tree).mass_matrix(&q);
-    let units = diagonal(&M).into_iter().zip(reaches(tree, &q)).map(|(entry, reach)| larger(entry, reach));
+    let units = diagonal(&M).into_iter().zip(reaches(tree, &q)).map(|(entry, reach)| entry.larger(reach));
     idle_motion_of(&M, &units.collect::<Vec<_>>(), nothing)
 }
 
@@ -83,7 +83,7 @@ fn reaches<R: Real>(tree: &Tree<R>, q: &[R]) -> Vec<R> {
         for (speed, motion) in motion_subspace(link) {
             let (linear, angular) = (motion.linear(), motion.angular());
             let reach = linear.dot(linear) * beyond[k].mass + angular.dot(angular) * spread;
-            reaches[speed] = reaches[speed] + magnitude(reach);
+            reaches[speed] = reaches[speed] + reach.magnitude();
         }
         if let Some(parent) = link.parent {
             beyond[parent] = beyond[parent] + beyond[k].transformed(pose_in_parent(link, q));
@@ -100,8 +100,8 @@ fn idle_motion_of<R: Real>(M: &[Vec<R>], units: &[R], nothing: f64) -> Option<Ve
     }
     let one = |unit: &R| if unit.is_positive() { R::from(1) / unit.sqrt() } else { R::from(1) };
     let scales: Vec<R> = units.iter().map(one).collect();
-    let Eliminated { pivots, rest, left } = Eliminated::of(M, &scales, real(nothing));
-    let is_nothing = |x: R| !(magnitude(x) - real(nothing)).is_positive();
+    let Eliminated { pivots, rest, left } = Eliminated::of(M, &scales, R::of_double(nothing));
+    let is_nothing = |x: R| !(x.magnitude() - R::of_double(nothing)).is_positive();
     // Of an indefinite matrix the diagonal may be nothing and the rest not.
     if !rest.iter().all(|&i| rest.iter().all(|&j| is_nothing(left[i][j]))) {
         return None;
@@ -114,9 +114,9 @@ fn idle_motion_of<R: Real>(M: &[Vec<R>], units: &[R], nothing: f64) -> Option<Ve
             let taken = row.fold(R::from(0), |sum, (_, (&entry, &v))| sum + entry * v);
             v[k] = -taken / left[k][k];
         }
-        let shares: Vec<R> = v.iter().zip(&scales).map(|(&v, &scale)| magnitude(v * scale)).collect();
-        let largest = shares.iter().copied().fold(R::from(0), larger);
-        let takes_part = |&k: &usize| (shares[k] - real::<R>(SHARE) * largest).is_positive();
+        let shares: Vec<R> = v.iter().zip(&scales).map(|(&v, &scale)| (v * scale).magnitude()).collect();
+        let largest = shares.iter().copied().fold(R::from(0), R::larger);
+        let takes_part = |&k: &usize| (shares[k] - R::of_double(SHARE) * largest).is_positive();
         (0..shares.len()).filter(takes_part).collect::<Vec<_>>()
     };
     rest.iter().map(motion).min_by_key(Vec::len)
@@ -141,7 +141,7 @@ impl<R: Real> Eliminated<R> {
         let mut left: Vec<Vec<R>> = M.iter().zip(scales).map(scaled).collect();
         let (mut pivots, mut rest) = (vec![], (0..M.len()).collect::<Vec<_>>());
         loop {
-            let size = |k: usize| magnitude(left[k][k]);
+            let size = |k: usize| left[k][k].magnitude();
             let larger = |best: usize, k: usize| if (size(k) - size(best)).is_positive() { k } else { best };
             let Some(pivot) = rest.iter().copied().reduce(larger) else { break };
             if !(size(pivot) - nothing).is_positive() {
@@ -163,25 +163,12 @@ impl<R: Real> Eliminated<R> {
 }
 
 fn diagonal<R: Real>(M: &[Vec<R>]) -> Vec<R> {
-    (0..M.len()).map(|k| magnitude(M[k][k])).collect()
+    (0..M.len()).map(|k| M[k][k].magnitude()).collect()
 }
 
 fn is_finite<R: Real>(M: &[Vec<R>]) -> bool {
-    let is_within = |size: R| size.is_positive() && !(size - real(f64::MAX)).is_positive();
-    M.iter().flatten().all(|&entry| Real::is_zero(entry) || is_within(magnitude(entry)))
-}
-
-fn magnitude<R: Real>(x: R) -> R {
-    if x.is_positive() { x } else { -x }
-}
-
-fn larger<R: Real>(x: R, y: R) -> R {
-    if (y - x).is_positive() { y } else { x }
-}
-
-/// A double in numbers of any precision.
-fn real<R: Real>(x: f64) -> R {
-    R::of(Number::from_f64(x).unwrap_or(Number::NAN))
+    let is_within = |size: R| size.is_positive() && !(size - R::of_double(f64::MAX)).is_positive();
+    M.iter().flatten().all(|&entry| Real::is_zero(entry) || is_within(entry.magnitude()))
 }
 
 #[cfg(test)]

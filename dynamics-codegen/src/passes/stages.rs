@@ -2,7 +2,8 @@
 //!
 //! What is computed side by side is gathered: stretches of the trunk and stretches of branches take turns, as few as there
 //! can be. A branch's stretch begins as soon as what it reads is known; of the trunk each step comes as late as those who
-//! read it allow. A quadruped's methods have one or two stretches of legs.
+//! read it allow. A quadruped's methods have one stretch of legs; two where accelerations are passed on, and up to four where what
+//! couples two legs is read of others.
 
 use super::{Operation, Program, Source};
 
@@ -71,13 +72,12 @@ impl Program {
         // The trunk's, as late as can be.
         let mut latest = vec![last; self.steps.len()];
         for k in (0..self.steps.len()).rev() {
-            let (needed, is_of_branches) = match self.is_of_branches(k) {
-                true => (turns[k] - 1, true),
-                false => (latest[k], false),
-            };
-            if !is_of_branches {
+            let needed = if self.is_of_branches(k) {
+                turns[k] - 1
+            } else {
                 turns[k] = latest[k];
-            }
+                latest[k]
+            };
             for read in self.read_by(k).filter_map(Source::step) {
                 latest[read] = latest[read].min(needed);
             }

@@ -33,6 +33,21 @@ pub trait Real:
 
     /// `cos self`, in radians.
     fn cos(self) -> Self;
+
+    /// The value of a double; no number, if that is none or infinite.
+    fn of_double(value: f64) -> Self {
+        Self::of(Number::from_f64(value).unwrap_or(Number::NAN))
+    }
+
+    /// `|self|`
+    fn magnitude(self) -> Self {
+        if self.is_positive() { self } else { -self }
+    }
+
+    /// The larger of two.
+    fn larger(self, other: Self) -> Self {
+        if (other - self).is_positive() { other } else { self }
+    }
 }
 
 impl Real for f64 {
