@@ -11,6 +11,7 @@ use super::coupling::{Coupling, elimination_parents};
 use super::energy;
 use super::factor::Factor;
 use super::frames::{self, Axes};
+use super::galilean::Known;
 use super::gauge::regauge;
 pub use super::method::{Argument, Block, Equation, Input, Inputs, Method, Shape, Trait};
 use super::normal::NormalTree;
@@ -395,14 +396,21 @@ impl<'g> Derivation<'g> {
     fn forward_dynamics_derivatives(&self) -> (Vec<Expr<'g>>, Vec<Block<'g>>) {
         let (a, factor) = self.forward_dynamics();
         let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&a);
-        let negated =
-            |m: Square<Expr<'g>>| m.into_iter().map(|row| row.into_iter().map(|x| -x).collect()).collect();
+        let Known { by_q, by_v } = self.known_derivatives();
         let derivatives = vec![
-            square("da_dq", factor.solve_matrix(&negated(dtau_dq))),
-            square("da_dv", factor.solve_matrix(&negated(dtau_dv))),
+            square("da_dq", solved(&factor, &dtau_dq, by_q)),
+            square("da_dv", solved(&factor, &dtau_dv, by_v)),
             square("da_dtau", self.inverse(&factor)),
         ];
         (a, derivatives)
+    }
+
+    /// The columns of `∂a/∂q` and `∂a/∂v` that are known without solving. Terms of the energies may know where a body is.
+    fn known_derivatives(&self) -> Known<Expr<'g>> {
+        match self.added {
+            None => Known::of(&self.dynamic, &self.q, &self.speeds()),
+            Some(_) => Known::none(self.inputs.dof),
+        }
     }
 
     fn pose(&self, frame: usize) -> Vec<Block<'g>> {
@@ -463,6 +471,21 @@ impl<'g> Derivation<'g> {
     fn motions(&self) -> &frames::LinkMotions<Expr<'g>> {
         self.motions.get_or_init(|| frames::LinkMotions::of(&self.kinematic, &self.q, &self.v, &self.a))
     }
+}
+
+/// `−M⁻¹` times the right-hand sides, but for the columns that are known.
+fn solved<'g>(
+    factor: &Factor<'_, Expr<'g>>,
+    right: &Square<Expr<'g>>,
+    known: Vec<Option<Vec<Expr<'g>>>>,
+) -> Square<Expr<'g>> {
+    let solve = |k: usize| factor.solve(&right.iter().map(|row| -row[k]).collect::<Vec<_>>());
+    let columns = known.into_iter().enumerate().map(|(k, known)| known.unwrap_or_else(|| solve(k)));
+    transposed(columns.collect())
+}
+
+fn transposed<'g>(columns: Square<Expr<'g>>) -> Square<Expr<'g>> {
+    (0..columns.len()).map(|i| columns.iter().map(|column| column[i]).collect()).collect()
 }
 
 fn times<'g>(m: &Square<Expr<'g>>, x: &[Expr<'g>]) -> Vec<Expr<'g>> {

@@ -135,19 +135,6 @@ impl<'f, S: Scalar> Factor<'f, S> {
         }
         R
     }
-
-    /// `M⁻¹ B`
-    pub fn solve_matrix(&self, B: &Square<S>) -> Square<S> {
-        let n = self.parents.len();
-        let mut X = vec![vec![S::zero(); n]; n];
-        for k in 0..n {
-            let column: Vec<S> = B.iter().map(|row| row[k]).collect();
-            for (row, x) in X.iter_mut().zip(self.solve(&column)) {
-                row[k] = x;
-            }
-        }
-        X
-    }
 }
 
 fn ancestors(parents: &[Option<usize>], k: usize) -> impl Iterator<Item = usize> + '_ {

@@ -13,6 +13,7 @@ pub mod energy;
 pub mod equations;
 pub mod factor;
 pub mod frames;
+mod galilean;
 pub mod gauge;
 mod joint_names;
 pub mod lagrange;
