@@ -109,6 +109,20 @@ pub(crate) const fn strips(rows: usize) -> usize {
     rows.div_ceil(STRIP)
 }
 
+/// Where a part of so many begins. The last one begins early enough to be full: a few rows or columns one by one take
+/// longer than a full part in lanes. What it makes of rows of the part before is that part's to write again, from the terms
+/// that these rows have; so strips are computed from the last to the first.
+pub(crate) const fn first_of(part: usize, size: usize, whole: usize) -> usize {
+    let (first, last) = (part * size, whole.saturating_sub(size));
+    if first < last { first } else { last }
+}
+
+/// Where parts of so many begin, which are all full if there are as many at all.
+#[inline(always)]
+pub(crate) fn parts(size: usize, whole: usize) -> impl Iterator<Item = usize> {
+    (0..whole.div_ceil(size)).map(move |part| first_of(part, size, whole))
+}
+
 /// Row `k` of a matrix given by columns.
 #[inline(always)]
 pub(crate) fn row_of<T: Scalar, const K: usize, const W: usize>(columns: &[[T; K]; W], k: usize) -> [T; W] {
@@ -148,7 +162,7 @@ pub(crate) fn multiply<
     terms: impl Fn(usize) -> I,
     result: &mut [[T; R]; W],
 ) {
-    for part in 0..R.div_ceil(S) {
+    for part in (0..R.div_ceil(S)).rev() {
         let sums: [[T; S]; W] = products(a, &factors, terms(part * S / STRIP), part);
         write_strip(result, part, &sums);
     }
@@ -166,24 +180,26 @@ pub(crate) fn add_products<T: Scalar, const R: usize, const W: usize, const S: u
 ) {
     // Spelt out: in a reference they would be in memory.
     let mut own = *sums;
-    if strip < R / S {
+    let first = first_of(strip, S, R);
+    if first + S <= R {
         for k in terms {
-            if let Some(part) = a.get(k).and_then(|column| column.as_chunks::<S>().0.get(strip)) {
+            let rows = a.get(k).and_then(|column| column.get(first..first + S));
+            if let Some(part) = rows {
                 add_multiples(&mut own, part, factors(k));
             }
         }
     } else {
-        // What is left: fewer rows than a strip has.
+        // Fewer rows than a strip has.
         for k in terms {
             if let Some(column) = a.get(k) {
-                add_multiples(&mut own, column.as_chunks::<S>().1, factors(k));
+                add_multiples(&mut own, column, factors(k));
             }
         }
     }
     *sums = own;
 }
 
-/// A strip of each column; zeros beyond the last row.
+/// A strip of each column; zeros beyond the last row of fewer than a strip.
 #[inline(always)]
 pub(crate) fn strip_of<T: Scalar, const R: usize, const W: usize, const S: usize>(
     columns: &[[T; R]; W],
@@ -191,16 +207,16 @@ pub(crate) fn strip_of<T: Scalar, const R: usize, const W: usize, const S: usize
 ) -> [[T; S]; W] {
     let mut sums = [[T::zero(); S]; W];
     for (sums, column) in sums.iter_mut().zip(columns) {
-        let (chunks, rest) = column.as_chunks();
-        match chunks.get(strip) {
+        let rows = column.get(first_of(strip, S, R)..).unwrap_or_default();
+        match rows.first_chunk() {
             Some(part) => *sums = *part,
-            None => sums.iter_mut().zip(rest).for_each(|(sum, value)| *sum = *value),
+            None => sums.iter_mut().zip(rows).for_each(|(sum, value)| *sum = *value),
         }
     }
     sums
 }
 
-/// Writes a strip of each column, as far as it has rows.
+/// Writes a strip of each column.
 #[inline(always)]
 pub(crate) fn write_strip<T: Scalar, const R: usize, const W: usize, const S: usize>(
     columns: &mut [[T; R]; W],
@@ -208,10 +224,10 @@ pub(crate) fn write_strip<T: Scalar, const R: usize, const W: usize, const S: us
     sums: &[[T; S]; W],
 ) {
     for (column, sums) in columns.iter_mut().zip(sums) {
-        let (chunks, rest) = column.as_chunks_mut();
-        match chunks.get_mut(strip) {
+        let rows = column.get_mut(first_of(strip, S, R)..).unwrap_or_default();
+        match rows.first_chunk_mut() {
             Some(part) => *part = *sums,
-            None => rest.iter_mut().zip(sums).for_each(|(value, sum)| *value = *sum),
+            None => rows.iter_mut().zip(sums).for_each(|(value, sum)| *value = *sum),
         }
     }
 }

@@ -135,6 +135,24 @@ fn solves_what_nalgebra_multiplies() {
     agrees(&LONG, const { &EliminationTree::of(LONG) });
 }
 
+/// Rows and columns of every number beyond whole strips.
+#[test]
+fn chains_of_every_length_are_solved() {
+    fn chain<const N: usize>() {
+        agrees(&core::array::from_fn::<_, N, _>(|k| k.checked_sub(1)), const { &EliminationTree::CHAIN });
+    }
+    chain::<8>();
+    chain::<9>();
+    chain::<10>();
+    chain::<11>();
+    chain::<12>();
+    chain::<13>();
+    chain::<14>();
+    chain::<15>();
+    chain::<18>();
+    chain::<23>();
+}
+
 #[test]
 fn where_nothing_need_be_zero_any_matrix_will_do() {
     agrees(&TREE, const { &EliminationTree::CHAIN });

@@ -22,8 +22,9 @@ macro_rules! put {
     ($matrix:ident: [[_; $rows:ident]; $columns:ident], $first:expr, $strip:expr, $sums:expr) => {{
         let (first, strip) = ($first, $strip);
         for (w, sums) in $sums.iter().enumerate() {
+            let begin = $crate::product::first_of(strip, sums.len(), $rows);
             for (i, sum) in sums.iter().enumerate() {
-                let (column, row) = (first + w, strip * sums.len() + i);
+                let (column, row) = (first + w, begin + i);
                 if column < $columns && row < $rows {
                     $matrix[column][row] = *sum;
                 }

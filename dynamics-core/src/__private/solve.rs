@@ -18,10 +18,27 @@ use super::columns;
 use super::in_place::{Tile, blank, mirror, put, transposed};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::product::{
-    COLUMNS, FEW_COLUMNS, LONG_STRIP, STRIP, add_products, by_rows, has_lanes, multiply, products, row_of,
-    strip_of, strips, write_strip,
+    COLUMNS, FEW_COLUMNS, LONG_STRIP, STRIP, add_products, by_rows, first_of, has_lanes, multiply, parts,
+    products, row_of, strip_of, strips, write_strip,
 };
 use crate::scalar::Scalar;
+
+/// `by_rest!(WIDTH = N % STRIP, expression)`: the expression with the constant `WIDTH`, so many as strips leave; none if
+/// they leave none.
+macro_rules! by_rest {
+    ($width:ident = $rest:expr, $expression:expr) => {
+        if const { $rest == 1 } {
+            const $width: usize = 1;
+            $expression
+        } else if const { $rest == 2 } {
+            const $width: usize = 2;
+            $expression
+        } else if const { $rest == 3 } {
+            const $width: usize = 3;
+            $expression
+        }
+    };
+}
 
 /// Where the factors of a matrix have entries: at each joint and those between it and the base.
 #[derive(Clone, Copy, Debug)]
@@ -155,13 +172,13 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         let mut solved = blank();
         let minus_inverse_d = self.inverse_d.map(|x| -x);
         macro_rules! solve_by {
-            ($width:ident, $columns:expr) => {
+            ($width:ident) => {
                 let mut halfway = [[T::zero(); N]; $width];
-                for first in $columns.step_by($width) {
+                for first in parts($width, M) {
                     let Some(columns) = b.get(first..).and_then(<[_]>::first_chunk::<$width>) else { continue };
                     self.write_halfway(columns, &minus_inverse_d, &mut halfway);
                     by_rows!(T, ROWS = STRIP, {
-                        for part in 0..N.div_ceil(ROWS) {
+                        for part in (0..N.div_ceil(ROWS)).rev() {
                             let terms = self.tree.below(part * ROWS / STRIP);
                             let sums: [[T; ROWS]; $width] =
                                 products(&self.r, |k| row_of(&halfway, k), terms, part);
@@ -174,14 +191,14 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         const SIX: usize = 6;
         const ONE: usize = 1;
         // As many columns at a time as leave none for last.
-        if const { has_lanes::<T>() } {
-            solve_by!(FEW_COLUMNS, 0..M / FEW_COLUMNS * FEW_COLUMNS);
-            solve_by!(ONE, M / FEW_COLUMNS * FEW_COLUMNS..M);
-        } else if M.is_multiple_of(SIX) && !M.is_multiple_of(COLUMNS) {
-            solve_by!(SIX, 0..M);
+        if const { M < COLUMNS } {
+            solve_by!(ONE);
+        } else if const { has_lanes::<T>() } {
+            solve_by!(FEW_COLUMNS);
+        } else if const { M.is_multiple_of(SIX) && !M.is_multiple_of(COLUMNS) } {
+            solve_by!(SIX);
         } else {
-            solve_by!(COLUMNS, 0..M / COLUMNS * COLUMNS);
-            solve_by!(ONE, M / COLUMNS * COLUMNS..M);
+            solve_by!(COLUMNS);
         }
         solved
     }
@@ -270,7 +287,7 @@ fn inverse<T: Scalar, const N: usize>(
                 }
                 let factors = |k: usize| rows.get(k).copied().unwrap_or([T::zero(); $width]);
                 by_rows!(T, ROWS = LONG_STRIP, {
-                    for strip in first / ROWS..N.div_ceil(ROWS) {
+                    for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
                         let sums: [[T; ROWS]; $width] = products(r, factors, tree.below(first / STRIP), strip);
                         put!(inverse: [[_; N]; N], first, strip, sums);
                     }
@@ -278,9 +295,10 @@ fn inverse<T: Scalar, const N: usize>(
             }
         };
     }
-    const ONE: usize = 1;
     inverse_by!(STRIP, 0..N / STRIP * STRIP);
-    inverse_by!(ONE, N / STRIP * STRIP..N);
+    by_rest!(WIDTH = N % STRIP, {
+        inverse_by!(WIDTH, N / STRIP * STRIP..N);
+    });
     mirror!(inverse, N);
     inverse
 }
@@ -302,15 +320,16 @@ fn factor<T: Scalar, const N: usize>(
     inverse_d: &mut [T; N],
 ) {
     let (blocks, rest) = m.as_chunks::<STRIP>();
-    for (k, row) in rest.iter().enumerate().rev() {
-        let first = N / STRIP * STRIP + k;
-        let rows = core::array::from_ref(row);
-        by_rows!(
-            T,
-            ROWS = LONG_STRIP,
-            factor_rows::<T, N, 1, ROWS>(rows, first, tree, l, minus_dl, inverse_d)
-        );
-    }
+    by_rest!(WIDTH = N % STRIP, {
+        if let Some(rows) = rest.first_chunk() {
+            let first = N / STRIP * STRIP;
+            by_rows!(
+                T,
+                ROWS = LONG_STRIP,
+                factor_rows::<T, N, WIDTH, ROWS>(rows, first, tree, l, minus_dl, inverse_d)
+            );
+        }
+    });
     for (block, rows) in blocks.iter().enumerate().rev() {
         let first = block * STRIP;
         by_rows!(
@@ -409,9 +428,10 @@ fn invert_triangular<T: Scalar, const N: usize>(
     tree: &EliminationTree<N>,
     inverse: &mut [[T; N]; N],
 ) {
-    for k in (N / STRIP * STRIP..N).rev() {
-        by_rows!(T, ROWS = LONG_STRIP, invert_columns::<T, N, 1, ROWS>(l, k, tree, inverse));
-    }
+    by_rest!(WIDTH = N % STRIP, {
+        let first = N / STRIP * STRIP;
+        by_rows!(T, ROWS = LONG_STRIP, invert_columns::<T, N, WIDTH, ROWS>(l, first, tree, inverse));
+    });
     for block in (0..N / STRIP).rev() {
         by_rows!(T, ROWS = LONG_STRIP, invert_columns::<T, N, STRIP, ROWS>(l, block * STRIP, tree, inverse));
     }
@@ -440,10 +460,10 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
         *own = minus(first + w);
     }
     // Whatever the rows at a time, the terms are those of a long strip.
-    for part in first / LONG_STRIP * (LONG_STRIP / S)..N.div_ceil(S) {
+    for part in (first / LONG_STRIP * (LONG_STRIP / S)..N.div_ceil(S)).rev() {
         let mut sums = [[T::zero(); S]; W];
         for (w, sums) in sums.iter_mut().enumerate() {
-            set(sums, (first + w).wrapping_sub(part * S), T::one());
+            set(sums, (first + w).wrapping_sub(first_of(part, S, N)), T::one());
         }
         let end_of_strip = (part * S / LONG_STRIP + 1) * LONG_STRIP;
         let reaching = tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));

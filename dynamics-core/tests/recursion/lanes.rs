@@ -93,6 +93,11 @@ fn chains_of_every_length_agree() {
     chain_agrees::<3>("RPR", 3);
     chain_agrees::<4>("RRPR", 4);
     chain_agrees::<5>("RuPpR", 5);
+    chain_agrees::<8>("RRP", 12);
+    chain_agrees::<10>("RPR", 13);
+    chain_agrees::<11>("RRPR", 14);
+    chain_agrees::<13>("RRP", 15);
+    chain_agrees::<15>("RPRR", 16);
     chain_agrees::<16>("RPRuR", 6);
     chain_agrees::<18>("RRP", 7);
     chain_agrees::<31>("RRRP", 8);

@@ -12,7 +12,7 @@ use crate::__private::columns;
 use crate::__private::in_place::{blank, mirror, put};
 use crate::__private::recursion::vector::Vector;
 use crate::dynamics::InverseDynamicsDerivatives;
-use crate::product::{COLUMNS, FEW_COLUMNS, STRIP, by_rows, has_lanes, products};
+use crate::product::{COLUMNS, FEW_COLUMNS, STRIP, by_rows, first_of, has_lanes, parts, products};
 use crate::scalar::Scalar;
 
 /// A matrix, by columns.
@@ -65,8 +65,8 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         let mut rows = [[T::zero(); N]; 6];
         set_last(&mut rows, self.rows.both().1);
         macro_rules! masses_by {
-            ($group:ident, $width:ident, $columns:expr) => {
-                for first in $columns.step_by($group) {
+            ($group:ident, $width:ident) => {
+                for first in parts($group, N) {
                     // From their first row on.
                     let origin = self.placed.origins.at(first);
                     self.shift(self.rows.both(), origin, first..N, &mut rows);
@@ -74,7 +74,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                         let first = first + part * $width;
                         let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
                         by_rows!(T, ROWS = STRIP, {
-                            for strip in first / ROWS..N.div_ceil(ROWS) {
+                            for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
                                 let sums: [[T; ROWS]; $width] = products(&rows, row_in(&units), 0..6, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
@@ -83,12 +83,13 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                 }
             };
         }
-        if const { has_lanes::<T>() } {
-            masses_by!(COLUMNS, FEW_COLUMNS, 0..N / COLUMNS * COLUMNS);
+        if const { N < COLUMNS } {
+            masses_by!(ONE, ONE);
+        } else if const { has_lanes::<T>() } {
+            masses_by!(COLUMNS, FEW_COLUMNS);
         } else {
-            masses_by!(COLUMNS, COLUMNS, 0..N / COLUMNS * COLUMNS);
+            masses_by!(COLUMNS, COLUMNS);
         }
-        masses_by!(ONE, ONE, N / COLUMNS * COLUMNS..N);
         mirror!(m, N);
         for (i, j) in self.between_branches() {
             m[i][j] = T::zero();
@@ -121,8 +122,8 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         let mut above = [[T::zero(); N]; 6];
         set_last(&mut above, self.placed.unit_twists().1);
         macro_rules! changes_by {
-            ($group:ident, $width:ident, $columns:expr) => {
-                for first in $columns.step_by($group) {
+            ($group:ident, $width:ident) => {
+                for first in parts($group, N) {
                     let origin = self.placed.origins.at(first);
                     self.shift(self.rows.both(), origin, first..N, &mut below);
                     self.shift(self.placed.unit_twists(), origin, 0..first + $group, &mut above);
@@ -134,7 +135,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                         scale_all(&mut forcing, scale);
                         by_rows!(T, ROWS = STRIP, {
                             // On the diagonal and below it.
-                            for strip in first / ROWS..N.div_ceil(ROWS) {
+                            for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
                                 let sums: [[T; ROWS]; $width] = products(&below, row_in(&moving), 0..9, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
@@ -144,14 +145,16 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
                             // And what is there in the same strips as what is not.
-                            for beyond in 0..$width.div_ceil(ROWS) {
-                                let strip = first / ROWS + beyond;
+                            for strip in first / ROWS..(first + $width).div_ceil(ROWS) {
+                                let begin = first_of(strip, ROWS, N);
                                 let sums: [[T; ROWS]; $width] =
                                     products(&above, row_in(&forcing), 0..6, strip);
                                 for (j, sums) in sums.iter().enumerate() {
-                                    let before = (first % ROWS + j).saturating_sub(beyond * ROWS);
-                                    for (i, value) in sums.iter().enumerate().take(before) {
-                                        m[first + j][strip * ROWS + i] = *value;
+                                    for (i, value) in sums.iter().enumerate() {
+                                        let (column, row) = (first + j, begin + i);
+                                        if row < column && column < N {
+                                            m[column][row] = *value;
+                                        }
                                     }
                                 }
                             }
@@ -160,12 +163,13 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                 }
             };
         }
-        if const { has_lanes::<T>() } {
-            changes_by!(COLUMNS, FEW_COLUMNS, 0..N / COLUMNS * COLUMNS);
+        if const { N < COLUMNS } {
+            changes_by!(ONE, ONE);
+        } else if const { has_lanes::<T>() } {
+            changes_by!(COLUMNS, FEW_COLUMNS);
         } else {
-            changes_by!(COLUMNS, COLUMNS, 0..N / COLUMNS * COLUMNS);
+            changes_by!(COLUMNS, COLUMNS);
         }
-        changes_by!(ONE, ONE, N / COLUMNS * COLUMNS..N);
         for (i, j) in self.between_branches() {
             m[i][j] = T::zero();
             m[j][i] = T::zero();
