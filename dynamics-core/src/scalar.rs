@@ -26,7 +26,7 @@ const SPELT_OUT: usize = 8;
 /// Computes one branch.
 macro_rules! branch {
     ($F:ident, $own:ident, $shared:ident, $results:ident, $branch:expr) => {
-        $F::of(|i| $own[i][$branch], |j| $shared[j], |k, value| $results[k][$branch] = value)
+        $F::of(Single { own: $own, shared: $shared, results: &mut $results, branch: $branch })
     };
 }
 
@@ -105,9 +105,48 @@ pub trait Scalar:
 
 /// What is computed of each of several branches of a robot that are alike, for [`Scalar::of_each`].
 pub trait Elementwise {
-    /// Reads the numbers that the branch has of its own and those that all branches share, by their places, and gives
-    /// each result with its place. Of one branch, or of as many as lanes hold.
-    fn of<S: Scalar>(own: impl Fn(usize) -> S, shared: impl Fn(usize) -> S, give: impl FnMut(usize, S));
+    /// Computes the results of one branch, or of as many as lanes hold.
+    fn of<S: Scalar>(each: impl Each<S>);
+}
+
+/// One branch, or as many as lanes hold. Not in closures, which nothing obliges a compiler to inline: what they share would
+/// stay in memory.
+pub trait Each<S> {
+    /// A number that the branch has of its own, by its place.
+    fn own(&self, place: usize) -> S;
+
+    /// A number that all branches share.
+    fn shared(&self, place: usize) -> S;
+
+    /// Takes a result.
+    fn give(&mut self, place: usize, value: S);
+}
+
+/// One branch of several.
+struct Single<'a, T, const N: usize, const I: usize, const J: usize, const K: usize> {
+    own: &'a [[T; N]; I],
+    shared: &'a [T; J],
+    results: &'a mut [[T; N]; K],
+    branch: usize,
+}
+
+impl<T: Copy, const N: usize, const I: usize, const J: usize, const K: usize> Each<T>
+    for Single<'_, T, N, I, J, K>
+{
+    #[inline(always)]
+    fn own(&self, place: usize) -> T {
+        self.own[place][self.branch]
+    }
+
+    #[inline(always)]
+    fn shared(&self, place: usize) -> T {
+        self.shared[place]
+    }
+
+    #[inline(always)]
+    fn give(&mut self, place: usize, value: T) {
+        self.results[place][self.branch] = value;
+    }
 }
 
 /// [`Scalar::sin_cos`] of each angle.

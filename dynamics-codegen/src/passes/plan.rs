@@ -122,9 +122,7 @@ impl Plans {
             _ => self.statements(method) > LONGEST_STRAIGHT_LINE,
         };
         match method {
-            _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.ancestors.len() >= fewest) => {
-                Form::Lanes
-            }
+            _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.unlike >= fewest) => Form::Lanes,
             Method::InverseDynamicsWithDerivatives => match self.form(Method::InverseDynamicsDerivatives) {
                 Form::StraightLine => Form::StraightLine,
                 _ => Form::Loops,
@@ -154,7 +152,8 @@ impl Plans {
         method != Method::InverseDynamicsWithDerivatives && self.form(method) == Form::Loops
     }
 
-    /// How many joints it takes for a method to be sooner done in lanes, if it can be.
+    /// How many joints, those that are alike counted once, it takes for a method to be sooner done in lanes over links, if
+    /// it can be.
     fn fewest_in_lanes(&self, method: Method) -> Option<usize> {
         let fewest = match method {
             Method::MassMatrix => FEWEST_MASSES_IN_LANES,

@@ -1,8 +1,8 @@
 //! What is computed of each branch of a robot whose branches are alike: by one piece of code, in lanes where the scalar
 //! has such.
 
-pub use crate::scalar::Elementwise;
 use crate::scalar::Scalar;
+pub use crate::scalar::{Each, Elementwise};
 
 /// What `F` makes of each of `N` branches, of their `own` numbers and of those that they `share`: K results, each a
 /// number for every branch.
@@ -26,19 +26,36 @@ mod tests {
     struct Sample;
 
     impl Elementwise for Sample {
-        fn of<S: Scalar>(
-            own: impl Fn(usize) -> S,
-            shared: impl Fn(usize) -> S,
-            mut give: impl FnMut(usize, S),
-        ) {
-            let (a, b, c) = (own(0), own(1), shared(0));
+        fn of<S: Scalar>(mut each: impl Each<S>) {
+            let (a, b, c) = (each.own(0), each.own(1), each.shared(0));
             let (sin, cos) = a.sin_cos();
-            give(0, a + b * c);
-            give(1, (a - b) / c);
-            give(2, -a.mul_add(b, c));
-            give(3, b.sqrt() + S::of(0.3));
-            give(4, sin);
-            give(5, cos);
+            each.give(0, a + b * c);
+            each.give(1, (a - b) / c);
+            each.give(2, -a.mul_add(b, c));
+            each.give(3, b.sqrt() + S::of(0.3));
+            each.give(4, sin);
+            each.give(5, cos);
+        }
+    }
+
+    /// One branch, in floats.
+    struct Alone<'a, T> {
+        own: [T; 2],
+        shared: [T; 1],
+        results: &'a mut [T; 6],
+    }
+
+    impl<T: Scalar> Each<T> for Alone<'_, T> {
+        fn own(&self, place: usize) -> T {
+            self.own[place]
+        }
+
+        fn shared(&self, place: usize) -> T {
+            self.shared[place]
+        }
+
+        fn give(&mut self, place: usize, value: T) {
+            self.results[place] = value;
         }
     }
 
@@ -55,7 +72,7 @@ mod tests {
         let together: [[T; N]; 6] = of_each::<Sample, T, N, 2, 1, 6>(own, shared);
         for k in 0..N {
             let mut alone = [T::zero(); 6];
-            Sample::of(|i| own[i][k], |j| shared[j], |place, value| alone[place] = value);
+            Sample::of(Alone { own: own.map(|row| row[k]), shared, results: &mut alone });
             assert_eq!(together.map(|row| row[k]), alone, "of {N}, number {k}");
         }
     }

@@ -4,7 +4,7 @@
 //! register are one run of the code, and so are those of a second one; the last register begins early enough to be full.
 
 use super::{f32x4, f32x8, f64x2, f64x4, f64x8};
-use crate::scalar::Elementwise;
+use crate::scalar::{Each, Elementwise};
 
 /// Whether registers hold four doubles.
 const HAS_256_BITS: bool = cfg!(target_feature = "avx");
@@ -21,20 +21,9 @@ macro_rules! together {
             let mut results = [[0.0; N]; K];
             // A macro, so that the code is inlined as often as it stands here.
             macro_rules! compute {
-                ($first:expr) => {{
-                    let first = $first;
-                    F::of(
-                        // Behind the numbers there are ones.
-                        |i| $lanes::from([$(if $place < N { own[i][first + $place] } else { 1.0 }),*]),
-                        |j| $lanes::from(shared[j]),
-                        |k, lanes| {
-                            let lanes = lanes.to_array();
-                            $(if $place < N {
-                                results[k][first + $place] = lanes[$place];
-                            })*
-                        },
-                    );
-                }};
+                ($first:expr) => {
+                    F::of::<$lanes>(Register { own, shared, results: &mut results, first: $first })
+                };
             }
             // Decided where `N` becomes a number: the compiler sees no code that is not run.
             if const { N <= 2 * $width } {
@@ -49,7 +38,39 @@ macro_rules! together {
             }
             results
         }
+
+        impl<const N: usize, const I: usize, const J: usize, const K: usize> Each<$lanes>
+            for Register<'_, $float, N, I, J, K>
+        {
+            #[inline(always)]
+            fn own(&self, place: usize) -> $lanes {
+                let numbers = &self.own[place];
+                // Behind the numbers there are ones.
+                $lanes::from([$(if $place < N { numbers[self.first + $place] } else { 1.0 }),*])
+            }
+
+            #[inline(always)]
+            fn shared(&self, place: usize) -> $lanes {
+                $lanes::from(self.shared[place])
+            }
+
+            #[inline(always)]
+            fn give(&mut self, place: usize, value: $lanes) {
+                let (lanes, results) = (value.to_array(), &mut self.results[place]);
+                $(if $place < N {
+                    results[self.first + $place] = lanes[$place];
+                })*
+            }
+        }
     };
+}
+
+/// As many branches as a register holds, from the first on.
+struct Register<'a, T, const N: usize, const I: usize, const J: usize, const K: usize> {
+    own: &'a [[T; N]; I],
+    shared: &'a [T; J],
+    results: &'a mut [[T; N]; K],
+    first: usize,
 }
 
 together!(by_f64x2: f64, f64x2[0 1] of 2);

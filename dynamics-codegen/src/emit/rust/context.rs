@@ -126,15 +126,15 @@ impl SideBySide for Context<'_> {
     }
 
     fn own(&self, place: usize) -> String {
-        format!("own({place})")
+        format!("each.own({place})")
     }
 
     fn shared(&self, place: usize) -> String {
-        format!("shared({place})")
+        format!("each.shared({place})")
     }
 
     fn give(&self, place: usize, value: &str) -> String {
-        format!("give({place}, {value})")
+        format!("each.give({place}, {value})")
     }
 
     fn row(&self, numbers: &[String]) -> String {
@@ -151,11 +151,7 @@ impl SideBySide for Context<'_> {
     struct Branch;
     impl Elementwise for Branch {{
         #[inline(always)]
-        fn of<S: Scalar>(
-            own: impl ::core::ops::Fn(usize) -> S,
-            shared: impl ::core::ops::Fn(usize) -> S,
-            mut give: impl ::core::ops::FnMut(usize, S),
-        ) {{
+        fn of<S: Scalar>(mut each: impl Each<S>) {{
 {}        }}
     }}
     of_each::<Branch, _, {branches}, _, _, _>(
