@@ -180,6 +180,33 @@ fn so_is_what_couples_two_legs_and_all_legs() {
     }
 }
 
+/// The straight line of two arms is no longer than that of one: loops over fourteen links would take nine times as long.
+#[test]
+fn two_arms_are_as_short_as_one() {
+    let mut file = File::new(14);
+    for side in [-1.0, 1.0] {
+        let mut parent = 0;
+        for joint in 0..7 {
+            let axis = if joint % 2 == 0 { [0.0, 0.0, 1.0] } else { [0.0, 1.0, 0.0] };
+            let at = if joint == 0 { [0.0, side, 0.0] } else { [0.0, 0.0, 0.2] };
+            parent = file.link(parent, "continuous", axis, at);
+        }
+    }
+    let (text, graph) = (file.end(), Graph::new());
+    let spec = match read_urdf("Robot", Urdf { file: "robot.urdf", text: &text }, "") {
+        Ok((spec, _)) => spec,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    let compiled = match checked(&spec, &graph, RunTime::Core) {
+        Ok((_, compiled)) => compiled,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    for method in [Method::CoriolisMatrix, Method::EquationsOfMotion, Method::InverseDynamicsDerivatives] {
+        let program = program(&compiled, method).expect("it is a straight line");
+        assert!(program.steps.iter().any(|step| step.lanes == 2), "{method:?}");
+    }
+}
+
 #[test]
 fn legs_are_a_few_stretches_of_code() {
     let (text, graph) = (legs(4), Graph::new());

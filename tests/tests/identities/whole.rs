@@ -8,6 +8,9 @@ use crate::{
     STATES, close, difference, for_each_dual_state, for_each_state, jacobian_by_differences, moving,
 };
 
+/// Some thousand operations, and a mass matrix with a condition of some hundreds.
+const FLIGHT: f64 = 1e-10;
+
 #[test]
 fn the_jacobian_of_the_center_of_mass_is_its_derivative() {
     for_each_state(|name, robot, State { q, v, .. }| {
@@ -111,6 +114,36 @@ fn a_wrench_on_a_body_is_the_rate_of_momentum() {
         let A = robot.centroidal_momentum_matrix(&q);
         let size = (A.abs() * (a.abs() + v.abs() * v.amax())).amax();
         assert_close!(found.as_slice(), expected.as_slice(), DIFFERENCES, floor = size, "{}: ḣ", entry.name);
+    }
+}
+
+/// Galileo: neither where a robot is that nothing holds, nor which way up, nor how fast the whole goes, is felt in a joint;
+/// and of what the derivatives say of it nothing is rounded.
+#[test]
+fn no_joint_feels_how_the_whole_moves() {
+    let flies = ["FreeBox", "Hyq"];
+    for (entry, Forms { robot, .. }) in zoo::in_double().filter(|(entry, _)| flies.contains(&entry.name)) {
+        for State { q, v, tau, .. } in entry.states(STATES) {
+            let a = robot.forward_dynamics(&q, &v, &tau);
+            let (within, n) = (3..v.len(), v.len() - 3);
+            let moved = Vector::from_fn(v.len(), |k, _| if k < 6 { tau[k] } else { 0.0 });
+            let elsewhere = robot.forward_dynamics(&robot.integrate(&q, &moved), &v, &tau);
+            let boost = Vector::from_fn(v.len(), |k, _| if k < 3 { tau[k] } else { 0.0 });
+            let faster = robot.forward_dynamics(&q, &(&v + &boost), &tau);
+            let size = a.amax() + v.amax() * (v.amax() + boost.amax());
+            for found in [elsewhere, faster] {
+                let (found, a) = (found.rows(3, n), a.rows(3, n));
+                assert_close!(found.as_slice(), a.as_slice(), FLIGHT, floor = size, "{}: a", entry.name);
+            }
+            let [da_dq, da_dv, _] = robot.forward_dynamics_derivatives(&q, &v, &tau);
+            for k in 0..3 {
+                assert_eq!(da_dq.column(k).amax(), 0.0, "{}: by the place", entry.name);
+                for (what, column) in [("attitude", da_dq.column(3 + k)), ("velocity", da_dv.column(k))] {
+                    let felt = within.clone().any(|row| column[row] != 0.0);
+                    assert!(!felt, "{}: by the {what}", entry.name);
+                }
+            }
+        }
     }
 }
 
