@@ -1,0 +1,125 @@
+//! Robots of other shapes and lengths than those of the race: `cargo run --release -p dynamics-bench --example shapes`.
+//!
+//! Whether the code is as fast where nobody looks: chains whose joints are no multiple of a register's lanes, five and six
+//! legs, two arms.
+#![allow(clippy::print_stdout, reason = "the table is the product")]
+
+use dynamics_bench::contest::{least, states};
+use dynamics_bench::models::chain32::Chain32;
+use dynamics_core::prelude::*;
+
+/// A chain of which some joints at the tip are locked.
+macro_rules! chain {
+    ($name:ident without $($joint:ident)*) => {
+        #[derive(Dynamics)]
+        #[dynamics(urdf = "robots/chain32.urdf")]
+        $(#[joint($joint, locked = 0)])*
+        struct $name;
+    };
+}
+
+chain!(Chain31 without joint32);
+chain!(Chain30 without joint31 joint32);
+chain!(Chain29 without joint30 joint31 joint32);
+chain!(Chain28 without joint29 joint30 joint31 joint32);
+
+/// Legs of three joints on a trunk that nothing holds.
+macro_rules! walker {
+    ($name:ident: $($hip:ident $thigh:ident $shin:ident, $upper:ident $lower:ident $foot:ident at [$($at:tt)*];)*) => {
+        #[derive(Dynamics)]
+        #[joint(base: free, world -> trunk)]
+        #[body(trunk, mass = 12, com = [0.01, 0, 0.02], inertia = tensor(0.2, 0.001, 0.002, 0.4, 0.0003, 0.5))]
+        $(
+            #[joint($hip: revolute(z), trunk -> $upper, at = [$($at)*])]
+            #[body($upper, mass = 0.9, com = [0.02, 0.01, 0], inertia = diag(0.001, 0.002, 0.002))]
+            #[joint($thigh: revolute(y), $upper -> $lower, at = [0.05, 0, 0])]
+            #[body($lower, mass = 1.1, com = [0.08, 0, 0.01], inertia = diag(0.001, 0.004, 0.004))]
+            #[joint($shin: revolute(y), $lower -> $foot, at = [0.2, 0, 0])]
+            #[body($foot, mass = 0.5, com = [0.1, 0, -0.02], inertia = diag(0.0005, 0.003, 0.003))]
+        )*
+        struct $name;
+    };
+}
+
+walker! { FiveLegs:
+    h1 t1 s1, u1 l1 f1 at [0.3, 0, 0];
+    h2 t2 s2, u2 l2 f2 at [0.09, 0.28, 0];
+    h3 t3 s3, u3 l3 f3 at [-0.24, 0.17, 0];
+    h4 t4 s4, u4 l4 f4 at [-0.24, -0.17, 0];
+    h5 t5 s5, u5 l5 f5 at [0.09, -0.28, 0];
+}
+
+walker! { SixLegs:
+    h1 t1 s1, u1 l1 f1 at [0.3, 0.15, 0];
+    h2 t2 s2, u2 l2 f2 at [0, 0.2, 0];
+    h3 t3 s3, u3 l3 f3 at [-0.3, 0.15, 0];
+    h4 t4 s4, u4 l4 f4 at [-0.3, -0.15, 0];
+    h5 t5 s5, u5 l5 f5 at [0, -0.2, 0];
+    h6 t6 s6, u6 l6 f6 at [0.3, -0.15, 0];
+}
+
+/// Arms of seven joints on the world.
+macro_rules! arms {
+    ($name:ident: $(
+        [$($at:tt)*] $a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident,
+        $k:ident $l:ident $m:ident $n:ident $o:ident $p:ident $q:ident;
+    )*) => {
+        #[derive(Dynamics)]
+        $(
+            #[joint($a: revolute(z), world -> $k, at = [$($at)*])]
+            #[body($k, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
+            #[joint($b: revolute(y), $k -> $l, at = [0, 0, 0.2])]
+            #[body($l, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
+            #[joint($c: revolute(z), $l -> $m, at = [0, 0, 0.2])]
+            #[body($m, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
+            #[joint($d: revolute(y), $m -> $n, at = [0, 0, 0.2])]
+            #[body($n, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
+            #[joint($e: revolute(z), $n -> $o, at = [0, 0, 0.2])]
+            #[body($o, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
+            #[joint($f: revolute(y), $o -> $p, at = [0, 0, 0.2])]
+            #[body($p, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
+            #[joint($g: revolute(z), $p -> $q, at = [0, 0, 0.1])]
+            #[body($q, mass = 0.5, com = [0.01, 0, 0.02], inertia = diag(0.001, 0.001, 0.001))]
+        )*
+        struct $name;
+    };
+}
+
+arms! { OneArm:
+    [0, 0.3, 0] a1 a2 a3 a4 a5 a6 a7, k1 k2 k3 k4 k5 k6 k7;
+}
+
+arms! { TwoArms:
+    [0, 0.3, 0] a1 a2 a3 a4 a5 a6 a7, k1 k2 k3 k4 k5 k6 k7;
+    [0, -0.3, 0] b1 b2 b3 b4 b5 b6 b7, l1 l2 l3 l4 l5 l6 l7;
+}
+
+fn main() {
+    println!("| robot | speeds | M | C | M⁻¹ | ∂ID | ∂FD |\n|---|--:|--:|--:|--:|--:|--:|");
+    row("one arm", &OneArm);
+    row("two arms", &TwoArms);
+    row("five legs", &FiveLegs);
+    row("six legs", &SixLegs);
+    row("chain of 28", &Chain28);
+    row("chain of 29", &Chain29);
+    row("chain of 30", &Chain30);
+    row("chain of 31", &Chain31);
+    row("chain of 32", &Chain32);
+}
+
+/// A line of the table: nanoseconds a call.
+fn row<R, const NQ: usize, const NV: usize>(name: &str, robot: &R)
+where
+    R: DynamicsDerivatives<f64, NQ, NV> + Configuration<f64, NQ, NV>,
+{
+    let states = states(robot);
+    let times = [
+        least(&states, |s| robot.mass_matrix(&s.q)),
+        least(&states, |s| robot.coriolis_matrix(&s.q, &s.v)),
+        least(&states, |s| robot.inverse_mass_matrix(&s.q)),
+        least(&states, |s| robot.inverse_dynamics_derivatives(&s.q, &s.v, &s.a)),
+        least(&states, |s| robot.forward_dynamics_derivatives(&s.q, &s.v, &s.a)),
+    ];
+    let cells: String = times.iter().map(|time| format!(" {time:.0} |")).collect();
+    println!("| {name} | {NV} |{cells}");
+}
