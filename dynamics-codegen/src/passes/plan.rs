@@ -157,9 +157,10 @@ impl Plans {
     fn fewest_in_lanes(&self, method: Method) -> Option<usize> {
         let fewest = match method {
             Method::MassMatrix => FEWEST_MASSES_IN_LANES,
-            Method::CoriolisMatrix | Method::EquationsOfMotion | Method::InverseDynamicsDerivatives => {
-                FEWEST_IN_LANES
-            }
+            Method::CoriolisMatrix
+            | Method::EquationsOfMotion
+            | Method::InverseDynamicsDerivatives
+            | Method::InverseDynamicsWithDerivatives => FEWEST_IN_LANES,
             _ => return None,
         };
         self.suits_lanes.then_some(fewest)

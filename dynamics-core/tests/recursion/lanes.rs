@@ -45,6 +45,9 @@ fn agrees<const N: usize>(tree: &Tree<f64, N, N, N>, seed: u64) {
     close(&ours.dtau_dq, &theirs.dtau_dq, TOLERANCE);
     close(&ours.dtau_dv, &theirs.dtau_dv, TOLERANCE);
     close(&ours.dtau_da, &theirs.dtau_da, TOLERANCE);
+    let (tau, derivatives) = lanes.inverse_dynamics_with_derivatives(&q, &v, &a);
+    close(&tau, &tree.inverse_dynamics(&q, &v, &a), TOLERANCE);
+    assert_eq!(derivatives, ours);
     #[cfg(feature = "simd")]
     {
         each_state_has_the_bits_of_one::<f64x2, N>(tree, &mut random);
@@ -67,14 +70,15 @@ fn each_state_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
     let [wide_q, wide_v, wide_a] = [&q, &v, &a].map(|x| in_lanes_of::<L, N, 1>(x));
     let m = wide.mass_matrix(&wide_q);
     let c = wide.coriolis_matrix(&wide_q, &wide_v);
-    let derivatives = wide.inverse_dynamics_derivatives(&wide_q, &wide_v, &wide_a);
+    let (tau, derivatives) = wide.inverse_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a);
     for (lane, ((q, v), a)) in q.iter().zip(&v).zip(&a).enumerate() {
         let check = |found: &SMatrix<L, N, N>, expected: SMatrix<f64, N, N>| {
             assert_eq!(bits_of_lane(found, lane), expected.map(f64::to_bits));
         };
         check(&m, single.mass_matrix(q));
         check(&c, single.coriolis_matrix(q, v));
-        let expected = single.inverse_dynamics_derivatives(q, v, a);
+        let (forces, expected) = single.inverse_dynamics_with_derivatives(q, v, a);
+        assert_eq!(bits_of_lane(&tau, lane), forces.map(f64::to_bits));
         check(&derivatives.dtau_dq, expected.dtau_dq);
         check(&derivatives.dtau_dv, expected.dtau_dv);
         check(&derivatives.dtau_da, expected.dtau_da);

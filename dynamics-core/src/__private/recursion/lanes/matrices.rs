@@ -4,7 +4,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::bodies::{Additive, Momenta, MomentaInLanes, Moments, MomentsInLanes, WrenchesInLanes};
 use super::motion::TwistsInLanes;
-use super::pairs::Changes;
+use super::pairs::{Changes, Pairs};
 use super::place::Placed;
 use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
@@ -80,6 +80,33 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         v: &SVector<T, N>,
         a: &SVector<T, N>,
     ) -> InverseDynamicsDerivatives<T, N> {
+        self.differentiated([q, v, a], |_, differentiated| differentiated.derivatives())
+    }
+
+    /// `τ` and these: it is what the joints feel of the wrenches by which they change.
+    pub fn inverse_dynamics_with_derivatives(
+        &self,
+        q: &SVector<T, N>,
+        v: &SVector<T, N>,
+        a: &SVector<T, N>,
+    ) -> (SVector<T, N>, InverseDynamicsDerivatives<T, N>) {
+        self.differentiated([q, v, a], |wrenches, differentiated| {
+            let [mut tau] = self.tree.passive_forces(q, v).data.0;
+            self.tree.add_armature_forces(entries(a), &mut tau);
+            for (k, force) in tau.iter_mut().enumerate() {
+                *force += differentiated.placed.twist(k).dot(wrenches.at(k));
+            }
+            (vector(tau), differentiated.derivatives())
+        })
+    }
+
+    /// What `finish` makes of the wrench on each joint and of what its derivatives come of.
+    #[inline(always)]
+    fn differentiated<R>(
+        &self,
+        [q, v, a]: [&SVector<T, N>; 3],
+        finish: impl FnOnce(&WrenchesInLanes<T, N>, Differentiated<'_, T, N>) -> R,
+    ) -> R {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
         let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
@@ -100,8 +127,15 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         set_rows(&placed, moments, &mut rows);
         let (armatures, [slopes_by_place, slopes_by_speed]) =
             (self.armatures(), self.passive_slopes(entries(v)));
-        let pairs = self.pairs(&placed, &rows);
-        pairs.derivatives([&of_places, &of_speeds], &nu, [&slopes_by_place, &slopes_by_speed], &armatures)
+        let differentiated = Differentiated {
+            placed: &placed,
+            pairs: self.pairs(&placed, &rows),
+            changes: [&of_places, &of_speeds],
+            nu: &nu,
+            slopes: [&slopes_by_place, &slopes_by_speed],
+            armatures: &armatures,
+        };
+        finish(wrenches, differentiated)
     }
 
     /// Writes 𝕁 and 𝔹 of all that hangs on each joint.
@@ -114,6 +148,23 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         self.moments(placed, &mut composites.0);
         set_momenta(&composites.0, velocities, &mut composites.1);
         self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, composites);
+    }
+}
+
+/// What derivatives of inverse dynamics come of.
+struct Differentiated<'a, T, const N: usize> {
+    placed: &'a Placed<T, N>,
+    pairs: Pairs<'a, T, N>,
+    changes: [&'a Changes<T, N>; 2],
+    nu: &'a Vectors<T, N>,
+    slopes: [&'a [T; N]; 2],
+    armatures: &'a [T; N],
+}
+
+impl<T: Scalar, const N: usize> Differentiated<'_, T, N> {
+    #[inline(always)]
+    fn derivatives(&self) -> InverseDynamicsDerivatives<T, N> {
+        self.pairs.derivatives(self.changes, self.nu, self.slopes, self.armatures)
     }
 }
 
