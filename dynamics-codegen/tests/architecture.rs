@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use dynamics_codegen::diagnostics::Code;
+use dynamics_codegen::model::names::hides_a_common_name;
 
 /// The modules of the compiler. Each may use those before it, and none after.
 const LADDER: &[&str] =
@@ -290,6 +291,18 @@ fn the_run_time_has_no_heap() {
             );
         }
     }
+}
+
+/// What generated code imports would hide a robot or a frame of that name.
+#[test]
+fn names_that_generated_code_imports_are_known() {
+    let text = read("dynamics-core/src/__private.rs");
+    let imports = text.split("pub use ").skip(1).filter_map(|rest| rest.split(';').next());
+    let words = imports.flat_map(|import| import.split(|c: char| !c.is_alphanumeric()));
+    let types: Vec<&str> = words.filter(|word| word.starts_with(char::is_uppercase)).collect();
+    assert!(types.contains(&"Factors"), "{types:?}");
+    let unknown: Vec<_> = types.iter().filter(|name| !hides_a_common_name(name)).collect();
+    assert!(unknown.is_empty(), "not in `COMMON` of model/names.rs: {unknown:?}");
 }
 
 #[test]

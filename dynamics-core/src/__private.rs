@@ -23,7 +23,7 @@ pub use crate::mechanism::{Cost, Costs, FrameCosts, JointLimits, Mechanism, Moti
 pub use crate::regressor::{BaseRegressor, Regressor};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
-pub use each::{Each, Elementwise, of_each};
+pub use each::{Branches, Elementwise, of_each};
 pub use inverse::{forward_from_inverse, inverse_of};
 pub use manifold::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, difference_ball, difference_free, free_rate,

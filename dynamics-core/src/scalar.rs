@@ -106,12 +106,12 @@ pub trait Scalar:
 /// What is computed of each of several branches of a robot that are alike, for [`Scalar::of_each`].
 pub trait Elementwise {
     /// Computes the results of one branch, or of as many as lanes hold.
-    fn of<S: Scalar>(each: impl Each<S>);
+    fn of<S: Scalar>(each: impl Branches<S>);
 }
 
 /// One branch, or as many as lanes hold. Not in closures, which nothing obliges a compiler to inline: what they share would
 /// stay in memory.
-pub trait Each<S> {
+pub trait Branches<S> {
     /// A number that the branch has of its own, by its place.
     fn own(&self, place: usize) -> S;
 
@@ -130,7 +130,7 @@ struct Single<'a, T, const N: usize, const I: usize, const J: usize, const K: us
     branch: usize,
 }
 
-impl<T: Copy, const N: usize, const I: usize, const J: usize, const K: usize> Each<T>
+impl<T: Copy, const N: usize, const I: usize, const J: usize, const K: usize> Branches<T>
     for Single<'_, T, N, I, J, K>
 {
     #[inline(always)]

@@ -2,7 +2,7 @@
 //! has such.
 
 use crate::scalar::Scalar;
-pub use crate::scalar::{Each, Elementwise};
+pub use crate::scalar::{Branches, Elementwise};
 
 /// What `F` makes of each of `N` branches, of their `own` numbers and of those that they `share`: K results, each a
 /// number for every branch.
@@ -26,7 +26,7 @@ mod tests {
     struct Sample;
 
     impl Elementwise for Sample {
-        fn of<S: Scalar>(mut each: impl Each<S>) {
+        fn of<S: Scalar>(mut each: impl Branches<S>) {
             let (a, b, c) = (each.own(0), each.own(1), each.shared(0));
             let (sin, cos) = a.sin_cos();
             each.give(0, a + b * c);
@@ -45,7 +45,7 @@ mod tests {
         results: &'a mut [T; 6],
     }
 
-    impl<T: Scalar> Each<T> for Alone<'_, T> {
+    impl<T: Scalar> Branches<T> for Alone<'_, T> {
         fn own(&self, place: usize) -> T {
             self.own[place]
         }

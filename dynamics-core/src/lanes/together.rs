@@ -4,7 +4,7 @@
 //! register are one run of the code, and so are those of a second one; the last register begins early enough to be full.
 
 use super::{f32x4, f32x8, f64x2, f64x4, f64x8};
-use crate::scalar::{Each, Elementwise};
+use crate::scalar::{Branches, Elementwise};
 
 /// Whether registers hold four doubles.
 const HAS_256_BITS: bool = cfg!(target_feature = "avx");
@@ -39,7 +39,7 @@ macro_rules! together {
             results
         }
 
-        impl<const N: usize, const I: usize, const J: usize, const K: usize> Each<$lanes>
+        impl<const N: usize, const I: usize, const J: usize, const K: usize> Branches<$lanes>
             for Register<'_, $float, N, I, J, K>
         {
             #[inline(always)]

@@ -151,7 +151,7 @@ impl SideBySide for Context<'_> {
     struct Branch;
     impl Elementwise for Branch {{
         #[inline(always)]
-        fn of<S: Scalar>(mut each: impl Each<S>) {{
+        fn of<S: Scalar>(mut each: impl Branches<S>) {{
 {}        }}
     }}
     of_each::<Branch, _, {branches}, _, _, _>(
