@@ -4,6 +4,7 @@
 //! vectors beyond SSE2, so that it does not depend on the machine. `-- --check` compares with `instructions.txt` and
 //! fails if a count is off by more than [`TOLERANCE`]; `-- --write` writes that file.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
+#![allow(clippy::duplicated_attributes, reason = "joints are locked alike")]
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

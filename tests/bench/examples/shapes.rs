@@ -3,6 +3,7 @@
 //! Whether the code is as fast where nobody looks: chains whose joints are no multiple of a register's lanes, five and six
 //! legs, two arms.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
+#![allow(clippy::duplicated_attributes, reason = "joints are locked alike")]
 
 use dynamics_bench::contest::{least, states};
 use dynamics_bench::models::chain32::Chain32;
