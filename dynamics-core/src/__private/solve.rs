@@ -130,9 +130,9 @@ impl<const N: usize> EliminationTree<N> {
 pub struct Factors<T, const N: usize> {
     /// Where they have entries.
     pub tree: &'static EliminationTree<N>,
-    /// `R`, by columns; what is above a strip of the diagonal is not read.
+    /// `R`, by columns; what is above a strip of the diagonal has no part in any result.
     pub r: [[T; N]; N],
-    /// `Rᵀ`, by columns; what is below a strip of the diagonal is not read.
+    /// `Rᵀ`, by columns; what is below a strip of the diagonal has no part in any result.
     pub r_transposed: [[T; N]; N],
     /// `1/D`
     pub inverse_d: [T; N],
