@@ -108,6 +108,19 @@ fn assert_stages_are_whole(program: &Program) {
     assert!(is_done.into_iter().all(|is_done| is_done));
 }
 
+/// What `look` finds in the programs of a robot.
+fn with_compiled<R>(text: &str, attributes: &str, look: impl FnOnce(&Compiled<'_>) -> R) -> R {
+    let (graph, urdf) = (Graph::new(), Urdf { file: "robot.urdf", text });
+    let spec = match read_urdf("Robot", urdf, attributes) {
+        Ok((spec, _)) => spec,
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    };
+    match checked(&spec, &graph, RunTime::Core) {
+        Ok((_, compiled)) => look(&compiled),
+        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    }
+}
+
 /// The widest step of inverse dynamics, once every method was compared with what is computed one after the other.
 fn lanes_of(text: &str, attributes: &str) -> usize {
     let urdf = Urdf { file: "robot.urdf", text };
@@ -160,23 +173,16 @@ fn legs_of_any_number_are_computed_side_by_side() {
 #[test]
 fn so_is_what_couples_two_legs_and_all_legs() {
     for count in 3..=6 {
-        let text = legs(count);
-        let (graph, urdf) = (Graph::new(), Urdf { file: "robot.urdf", text: &text });
-        let spec = match read_urdf("Robot", urdf, "#[dynamics(base = free)]") {
-            Ok((spec, _)) => spec,
-            Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-        };
-        let compiled = match checked(&spec, &graph, RunTime::Core) {
-            Ok((_, compiled)) => compiled,
-            Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-        };
-        for method in [Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
-            let program = program(&compiled, method).expect("it is a straight line");
-            let mut turns = program.steps.iter().filter(|step| matches!(step.operation, Operation::Turn(..)));
-            assert!(turns.any(|step| step.lanes == count), "{method:?} of {count} legs");
-            let (together, alone) = (program.instructions(), program.one_by_one().instructions());
-            assert!(2 * together < alone, "{method:?} of {count} legs: {together} of {alone}");
-        }
+        with_compiled(&legs(count), "#[dynamics(base = free)]", |compiled| {
+            for method in [Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
+                let program = program(compiled, method).expect("it is a straight line");
+                let mut turns =
+                    program.steps.iter().filter(|step| matches!(step.operation, Operation::Turn(..)));
+                assert!(turns.any(|step| step.lanes == count), "{method:?} of {count} legs");
+                let (together, alone) = (program.instructions(), program.one_by_one().instructions());
+                assert!(2 * together < alone, "{method:?} of {count} legs: {together} of {alone}");
+            }
+        });
     }
 }
 
@@ -192,46 +198,32 @@ fn two_arms_are_as_short_as_one() {
             parent = file.link(parent, "continuous", axis, at);
         }
     }
-    let (text, graph) = (file.end(), Graph::new());
-    let spec = match read_urdf("Robot", Urdf { file: "robot.urdf", text: &text }, "") {
-        Ok((spec, _)) => spec,
-        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-    };
-    let compiled = match checked(&spec, &graph, RunTime::Core) {
-        Ok((_, compiled)) => compiled,
-        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-    };
-    for method in [Method::CoriolisMatrix, Method::EquationsOfMotion, Method::InverseDynamicsDerivatives] {
-        let program = program(&compiled, method).expect("it is a straight line");
-        assert!(program.steps.iter().any(|step| step.lanes == 2), "{method:?}");
-    }
+    with_compiled(&file.end(), "", |compiled| {
+        for method in [Method::CoriolisMatrix, Method::EquationsOfMotion, Method::InverseDynamicsDerivatives]
+        {
+            let program = program(compiled, method).expect("it is a straight line");
+            assert!(program.steps.iter().any(|step| step.lanes == 2), "{method:?}");
+        }
+    });
 }
 
 #[test]
 fn legs_are_a_few_stretches_of_code() {
-    let (text, graph) = (legs(4), Graph::new());
-    let spec = match read_urdf("Robot", Urdf { file: "robot.urdf", text: &text }, "#[dynamics(base = free)]")
-    {
-        Ok((spec, _)) => spec,
-        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-    };
-    let compiled = match checked(&spec, &graph, RunTime::Core) {
-        Ok((_, compiled)) => compiled,
-        Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
-    };
-    let stretches = |method| {
-        let stages = program(&compiled, method).expect("it is a straight line").stages();
-        stages.iter().filter(|stage| matches!(stage, Stage::Branches(_))).count()
-    };
-    // From the trunk to the feet and back; for accelerations the trunk's is passed on once more.
-    for method in [Method::MassMatrix, Method::InverseDynamics, Method::InverseDynamicsDerivatives] {
-        assert_eq!(stretches(method), 1, "{method:?}");
-    }
-    assert_eq!(stretches(Method::ForwardDynamics), 2);
-    // What couples two legs reads what was computed of others.
-    for method in [Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
-        assert!((2..=4).contains(&stretches(method)), "{method:?}: {}", stretches(method));
-    }
+    with_compiled(&legs(4), "#[dynamics(base = free)]", |compiled| {
+        let stretches = |method| {
+            let stages = program(compiled, method).expect("it is a straight line").stages();
+            stages.iter().filter(|stage| matches!(stage, Stage::Branches(_))).count()
+        };
+        // From the trunk to the feet and back; for accelerations the trunk's is passed on once more.
+        for method in [Method::MassMatrix, Method::InverseDynamics, Method::InverseDynamicsDerivatives] {
+            assert_eq!(stretches(method), 1, "{method:?}");
+        }
+        assert_eq!(stretches(Method::ForwardDynamics), 2);
+        // What couples two legs reads what was computed of others.
+        for method in [Method::InverseMassMatrix, Method::ForwardDynamicsDerivatives] {
+            assert!((2..=4).contains(&stretches(method)), "{method:?}: {}", stretches(method));
+        }
+    });
 }
 
 #[test]
