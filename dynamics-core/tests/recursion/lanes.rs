@@ -13,26 +13,31 @@ use super::{TOLERANCE, close, with_stack};
 use crate::common::{bits_of_lane, in_lanes_of};
 use crate::common::{random_numbers, random_vector};
 
-/// A chain or a tree of joints that move as their coordinates do.
-fn driven_directly<const N: usize>(joints: &str, shape: Shape, seed: u64) -> Tree<f64, N, N, N> {
-    let mut tree = Robot::<N, N, N>::random(joints, shape, seed).tree;
-    for (k, link) in tree.links.iter_mut().enumerate() {
+/// A chain or a tree of joints that move as their coordinates do, and have their indices; after a free base, if there is one.
+fn driven_directly<const NL: usize, const NQ: usize, const N: usize>(
+    joints: &str,
+    shape: Shape,
+    seed: u64,
+) -> Robot<NL, NQ, N> {
+    let mut robot = Robot::random(joints, shape, seed);
+    for (k, link) in robot.tree.links.iter_mut().enumerate() {
         if let Joint::Revolute(drive, _) | Joint::Prismatic(drive, _) = &mut link.joint {
-            *drive = Drive::own(k, k);
+            *drive = Drive::own(NQ - NL + k, N - NL + k);
         }
     }
-    tree
+    robot
 }
 
 /// Whether right after each link comes all that hangs on it.
-fn is_walk<const N: usize>(tree: &Tree<f64, N, N, N>) -> bool {
+fn is_walk<const NL: usize, const NQ: usize, const N: usize>(tree: &Tree<f64, NL, NQ, N>) -> bool {
     let ways = |k: usize| std::iter::successors(Some(k), |&k| tree.links[k].parent);
-    (1..N).all(|k| tree.links[k].parent.is_none_or(|parent| ways(k - 1).any(|link| link == parent)))
+    (1..NL).all(|k| tree.links[k].parent.is_none_or(|parent| ways(k - 1).any(|link| link == parent)))
 }
 
-fn agrees<const N: usize>(tree: &Tree<f64, N, N, N>, seed: u64) {
-    let mut random = random_numbers(seed);
-    let [q, v, a]: [SVector<f64, N>; 3] = core::array::from_fn(|_| random_vector(&mut random, 2.0));
+fn agrees<const NL: usize, const NQ: usize, const N: usize>(robot: &Robot<NL, NQ, N>, seed: u64) {
+    let (tree, mut random) = (&robot.tree, random_numbers(seed));
+    let q = robot.random_coordinates(&mut random, 2.0);
+    let [v, a]: [SVector<f64, N>; 2] = core::array::from_fn(|_| random_vector(&mut random, 2.0));
     let lanes = tree.in_lanes();
     close(&lanes.mass_matrix(&q), &tree.mass_matrix(&q), TOLERANCE);
     close(&lanes.coriolis_matrix(&q, &v), &tree.coriolis_matrix(&q, &v), TOLERANCE);
@@ -50,24 +55,31 @@ fn agrees<const N: usize>(tree: &Tree<f64, N, N, N>, seed: u64) {
     assert_eq!(derivatives, ours);
     #[cfg(feature = "simd")]
     {
-        each_state_has_the_bits_of_one::<f64x2, N>(tree, &mut random);
-        each_state_has_the_bits_of_one::<f64x4, N>(tree, &mut random);
-        each_state_has_the_bits_of_one::<f64x8, N>(tree, &mut random);
+        each_state_has_the_bits_of_one::<f64x2, NL, NQ, N>(robot, &mut random);
+        each_state_has_the_bits_of_one::<f64x4, NL, NQ, N>(robot, &mut random);
+        each_state_has_the_bits_of_one::<f64x8, NL, NQ, N>(robot, &mut random);
     }
 }
 
 /// Several states as one scalar, for which rows and columns are taken otherwise.
 #[cfg(feature = "simd")]
-fn each_state_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
-    tree: &Tree<f64, N, N, N>,
+fn each_state_has_the_bits_of_one<
+    L: Lanes<Element = f64>,
+    const NL: usize,
+    const NQ: usize,
+    const N: usize,
+>(
+    robot: &Robot<NL, NQ, N>,
     random: &mut impl FnMut() -> f64,
 ) {
-    let mut states =
+    let q: Vec<_> = (0..L::COUNT).map(|_| robot.random_coordinates(random, 2.0)).collect();
+    let mut vectors =
         || -> Vec<SVector<f64, N>> { (0..L::COUNT).map(|_| random_vector(random, 2.0)).collect() };
-    let (q, v, a) = (states(), states(), states());
-    let wide = lifted::<L, N, N, N>(tree);
-    let (wide, single) = (wide.in_lanes(), tree.in_lanes());
-    let [wide_q, wide_v, wide_a] = [&q, &v, &a].map(|x| in_lanes_of::<L, N, 1>(x));
+    let (v, a) = (vectors(), vectors());
+    let wide = lifted::<L, NL, NQ, N>(&robot.tree);
+    let (wide, single) = (wide.in_lanes(), robot.tree.in_lanes());
+    let wide_q = in_lanes_of::<L, NQ, 1>(&q);
+    let [wide_v, wide_a] = [&v, &a].map(|x| in_lanes_of::<L, N, 1>(x));
     let m = wide.mass_matrix(&wide_q);
     let c = wide.coriolis_matrix(&wide_q, &wide_v);
     let (tau, derivatives) = wide.inverse_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a);
@@ -87,7 +99,19 @@ fn each_state_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
 
 /// With room for unoptimised code on eight states at once.
 fn chain_agrees<const N: usize>(joints: &'static str, seed: u64) {
-    with_stack(8 << 20, move || agrees(&driven_directly::<N>(joints, Shape::Chain, seed), seed));
+    with_stack(8 << 20, move || agrees(&driven_directly::<N, N, N>(joints, Shape::Chain, seed), seed));
+}
+
+/// The same of one that floats.
+fn floating_chain_agrees<const NL: usize, const NQ: usize, const N: usize>(joints: &'static str, seed: u64) {
+    with_stack(8 << 20, move || {
+        agrees(&driven_directly::<NL, NQ, N>(&floating::<NL>(joints), Shape::Chain, seed), seed);
+    });
+}
+
+/// A free base, and these joints again and again.
+fn floating<const NL: usize>(joints: &str) -> String {
+    std::iter::once('F').chain(joints.chars().cycle()).take(NL).collect()
 }
 
 #[test]
@@ -107,33 +131,91 @@ fn chains_of_every_length_agree() {
     chain_agrees::<31>("RRRP", 8);
 }
 
+#[test]
+fn floating_chains_of_every_length_agree() {
+    floating_chain_agrees::<1, 7, 6>("", 21);
+    floating_chain_agrees::<2, 8, 7>("P", 22);
+    floating_chain_agrees::<3, 9, 8>("RP", 23);
+    floating_chain_agrees::<6, 12, 11>("RuPpR", 24);
+    floating_chain_agrees::<8, 14, 13>("RRP", 25);
+    floating_chain_agrees::<11, 17, 16>("RRPR", 26);
+    floating_chain_agrees::<22, 28, 27>("RPRRR", 27);
+}
+
+/// Arms are differences of origins, which are counted from the base.
+#[test]
+fn nothing_is_lost_where_a_robot_floats_far_away() {
+    let robot = driven_directly::<5, 11, 10>(&floating::<5>("RRPR"), Shape::Chain, 28);
+    let (lanes, mut random) = (robot.tree.in_lanes(), random_numbers(29));
+    let q = robot.random_coordinates(&mut random, 2.0);
+    let [v, a] = core::array::from_fn(|_| random_vector(&mut random, 2.0));
+    let mut far = q;
+    far[0] = 1e9;
+    assert_eq!(lanes.coriolis_matrix(&far, &v), lanes.coriolis_matrix(&q, &v));
+    assert_eq!(
+        lanes.inverse_dynamics_with_derivatives(&far, &v, &a),
+        lanes.inverse_dynamics_with_derivatives(&q, &v, &a)
+    );
+}
+
 /// Branches within a group of four, and across several.
 #[test]
 fn branched_trees_agree() {
-    let mut seen = 0;
+    let (mut seen, mut floating_seen) = (0, 0);
     for seed in 0..400 {
-        let tree = driven_directly::<9>("RPR", Shape::Branched, seed);
-        if is_walk(&tree) && tree.links.windows(2).any(|two| two[0].parent == two[1].parent) {
-            agrees(&tree, seed);
-            seen += 1;
-        }
+        seen +=
+            usize::from(agrees_if_branched(&driven_directly::<9, 9, 9>("RPR", Shape::Branched, seed), seed));
+        let robot = driven_directly::<8, 14, 13>(&floating::<8>("RPR"), Shape::Branched, seed);
+        floating_seen += usize::from(agrees_if_branched(&robot, seed));
     }
-    assert!(seen > 5, "only {seen} trees in the order of a walk");
+    assert!(seen > 5 && floating_seen > 5, "only {seen} and {floating_seen} trees in the order of a walk");
+}
 
-    // Legs of three on every second link of a spine: what hangs on a link ends within other groups.
-    let mut tree = driven_directly::<23>("RRRP", Shape::Chain, 9);
-    let parents = [0, 1, 2, 0, 4, 5, 6, 4, 8, 9, 10, 8, 12, 13, 8, 15, 0, 17, 18, 19, 17, 17];
-    for (link, parent) in tree.links.iter_mut().skip(1).zip(parents) {
-        link.parent = Some(parent);
+/// If it stands in the order of a walk.
+fn agrees_if_branched<const NL: usize, const NQ: usize, const N: usize>(
+    robot: &Robot<NL, NQ, N>,
+    seed: u64,
+) -> bool {
+    let links = &robot.tree.links;
+    let is_branched = is_walk(&robot.tree) && links.windows(2).any(|two| two[0].parent == two[1].parent);
+    if is_branched {
+        agrees(robot, seed);
     }
-    assert!(is_walk(&tree));
-    agrees(&tree, 10);
+    is_branched
+}
 
-    // Two robots on one world.
-    tree.links[12].parent = None;
-    for (link, parent) in tree.links.iter_mut().skip(13).zip([12, 13, 12, 15, 12, 17, 18, 19, 17, 17]) {
-        link.parent = Some(parent);
+/// Legs of three on every second link of a spine: what hangs on a link ends within other groups.
+#[test]
+fn legs_along_a_spine_agree() {
+    with_stack(8 << 20, spines_agree);
+}
+
+fn spines_agree() {
+    let parents = [0, 1, 2, 0, 4, 5, 6, 4, 8, 9, 10, 8, 12, 13, 8, 15, 0, 17, 18, 19, 17, 17].map(Some);
+    let mut robot = driven_directly::<23, 23, 23>("RRRP", Shape::Chain, 9);
+    hang(&mut robot, &parents);
+    agrees(&robot, 10);
+    let mut floating = driven_directly::<23, 29, 28>(&floating::<23>("RRRP"), Shape::Chain, 9);
+    hang(&mut floating, &parents);
+    agrees(&floating, 10);
+
+    // Two robots on one world; and one that floats beside one that does not.
+    let mut parents = parents;
+    parents[11] = None;
+    parents[12..].copy_from_slice(&[12, 13, 12, 15, 12, 17, 18, 19, 17, 17].map(Some));
+    hang(&mut robot, &parents);
+    agrees(&robot, 11);
+    hang(&mut floating, &parents);
+    agrees(&floating, 11);
+}
+
+/// Gives the links but the first these parents.
+fn hang<const NL: usize, const NQ: usize, const N: usize>(
+    robot: &mut Robot<NL, NQ, N>,
+    parents: &[Option<usize>],
+) {
+    for (link, parent) in robot.tree.links.iter_mut().skip(1).zip(parents) {
+        link.parent = *parent;
     }
-    assert!(is_walk(&tree));
-    agrees(&tree, 11);
+    assert!(is_walk(&robot.tree));
 }

@@ -17,7 +17,7 @@ pub(super) trait Additive<T: Scalar, const N: usize>: Copy {
     fn shifted(self, offset: Vector<T>) -> Self;
 }
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
     /// Adds to each link's value those of all that hangs on it. What goes to the link right before stays in registers.
     #[inline]
     pub(super) fn collect<X: Additive<T, N>>(&self, offsets: &[Vector<T>; N], all: &mut X::Lanes) {
@@ -34,21 +34,21 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         }
     }
 
-    /// Writes the links' own moments in world axes.
+    /// Writes the links' own moments in world axes, over zeros.
     pub(super) fn moments(&self, placed: &Placed<T, N>, moments: &mut MomentsInLanes<T, N>) {
         let masses = &self.tree.masses;
-        moments.mass = masses.mass;
         let [x, y, z] = &masses.first;
-        for k in 0..N {
+        for (link, k) in (0..NL).zip(Self::BEFORE..N) {
             let rotation = placed.rotation(k);
-            let half = rotation.product(Matrix::symmetric(six_at(&masses.second, k))).0.map(Vector);
+            let half = rotation.product(Matrix::symmetric(six_at(&masses.second, link))).0.map(Vector);
             let axes = rotation.0.map(Vector);
             let entry = |i: usize, j: usize| match (half.get(i), axes.get(j)) {
                 (Some(a), Some(b)) => a.dot(*b),
                 _ => T::zero(),
             };
             let turned = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
-            moments.first.set(k, rotation.times(Vector([at(x, k), at(y, k), at(z, k)])));
+            set(&mut moments.mass, k, at(&masses.mass, link));
+            moments.first.set(k, rotation.times(Vector([at(x, link), at(y, link), at(z, link)])));
             for (x, value) in moments.second.iter_mut().zip(turned) {
                 set(x, k, value);
             }

@@ -8,15 +8,15 @@ use super::pairs::{Changes, Pairs};
 use super::place::Placed;
 use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
-use crate::__private::recursion::screw::{Twist, Wrench};
+use crate::__private::recursion::screw::Wrench;
 use crate::__private::recursion::vector::Vector;
 use crate::__private::{columns, vector};
 use crate::dynamics::{EquationsOfMotion, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
     /// The mass matrix `M(q)`, both halves, with the armatures.
-    pub fn mass_matrix(&self, q: &SVector<T, N>) -> SMatrix<T, N, N> {
+    pub fn mass_matrix(&self, q: &SVector<T, NQ>) -> SMatrix<T, N, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
         let mut moments = MomentsInLanes::zero();
@@ -28,7 +28,7 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     }
 
     /// The Coriolis matrix `C(q,v)`: Levi-Civita's, without passive forces.
-    pub fn coriolis_matrix(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> SMatrix<T, N, N> {
+    pub fn coriolis_matrix(&self, q: &SVector<T, NQ>, v: &SVector<T, N>) -> SMatrix<T, N, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
         let mut velocities = TwistsInLanes::zero();
@@ -43,7 +43,7 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     }
 
     /// `M`, `C` and `G`.
-    pub fn equations_of_motion(&self, q: &SVector<T, N>, v: &SVector<T, N>) -> EquationsOfMotion<T, N> {
+    pub fn equations_of_motion(&self, q: &SVector<T, NQ>, v: &SVector<T, N>) -> EquationsOfMotion<T, N> {
         let mut placed = Placed::zero();
         self.place(entries(q), &mut placed);
         let mut velocities = TwistsInLanes::zero();
@@ -65,10 +65,9 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     /// `G`, from the moments of all that hangs on each joint.
     #[inline(never)] // or else M is copied once more
     fn gravity_forces(&self, placed: &Placed<T, N>, moments: &MomentsInLanes<T, N>) -> [T; N] {
-        let upwards = Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) };
         let mut forces = [T::zero(); N];
         for (k, force) in forces.iter_mut().enumerate() {
-            *force = placed.twist(k).dot(moments.at(k).wrench_of(upwards));
+            *force = placed.twist(k).dot(moments.at(k).wrench_of(self.upwards()));
         }
         forces
     }
@@ -76,21 +75,21 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     /// `∂τ/∂q`, `∂τ/∂v` and `∂τ/∂a = M` of inverse dynamics.
     pub fn inverse_dynamics_derivatives(
         &self,
-        q: &SVector<T, N>,
+        q: &SVector<T, NQ>,
         v: &SVector<T, N>,
         a: &SVector<T, N>,
     ) -> InverseDynamicsDerivatives<T, N> {
-        self.differentiated([q, v, a], |_, differentiated| differentiated.derivatives())
+        self.differentiated((q, v, a), |_, differentiated| differentiated.derivatives())
     }
 
     /// `τ` and these: it is what the joints feel of the wrenches by which they change.
     pub fn inverse_dynamics_with_derivatives(
         &self,
-        q: &SVector<T, N>,
+        q: &SVector<T, NQ>,
         v: &SVector<T, N>,
         a: &SVector<T, N>,
     ) -> (SVector<T, N>, InverseDynamicsDerivatives<T, N>) {
-        self.differentiated([q, v, a], |wrenches, differentiated| {
+        self.differentiated((q, v, a), |wrenches, differentiated| {
             let [mut tau] = self.tree.passive_forces(q, v).data.0;
             self.tree.add_armature_forces(entries(a), &mut tau);
             for (k, force) in tau.iter_mut().enumerate() {
@@ -104,7 +103,7 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
     #[inline(always)]
     fn differentiated<R>(
         &self,
-        [q, v, a]: [&SVector<T, N>; 3],
+        (q, v, a): (&SVector<T, NQ>, &SVector<T, N>, &SVector<T, N>),
         finish: impl FnOnce(&WrenchesInLanes<T, N>, Differentiated<'_, T, N>) -> R,
     ) -> R {
         let mut placed = Placed::zero();
@@ -123,6 +122,7 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         let (mut of_speeds, mut of_places, mut nu) = (Changes::zero(), Changes::zero(), Vectors::zero());
         by_speed(&placed, &velocities, composites, &mut of_speeds, &mut nu);
         by_place(&placed, [&velocities, &accelerations], composites, wrenches, &of_speeds, &mut of_places);
+        self.change_base(&placed, &velocities, composites, [&mut of_places, &mut of_speeds]);
         let mut rows = WrenchesInLanes::zero();
         set_rows(&placed, moments, &mut rows);
         let (armatures, [slopes_by_place, slopes_by_speed]) =
@@ -136,6 +136,27 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
             armatures: &armatures,
         };
         finish(wrenches, differentiated)
+    }
+
+    /// Writes over the changes of a free base those of a joint of six parts, which turn each other: by place, they change as
+    /// what carries the base does, which is at rest; by speed, at the mean of its velocity and of the base's.
+    fn change_base(
+        &self,
+        placed: &Placed<T, N>,
+        velocities: &TwistsInLanes<T, N>,
+        (moments, momenta): Composites<'_, T, N>,
+        [of_places, of_speeds]: [&mut Changes<T, N>; 2],
+    ) {
+        for k in 0..Self::BASE {
+            let (unit, moments, momenta) = (placed.twist(k), moments.at(k), Momenta::read(momenta, k));
+            let by_place = self.upwards().cross(unit);
+            of_places.twists.set(k, by_place);
+            of_places.turns.set(k, Vector::zero());
+            moments.wrench_of(by_place).write(&mut of_places.wrenches, k);
+            let by_speed = velocities.at(k).scaled(T::of(0.5)).cross(unit);
+            of_speeds.twists.set(k, by_speed);
+            (moments.wrench_of(by_speed) + momenta.wrench_of(unit.angular)).write(&mut of_speeds.wrenches, k);
+        }
     }
 
     /// Writes 𝕁 and 𝔹 of all that hangs on each joint.

@@ -7,7 +7,9 @@
 //! are added, so that no precision is lost far from the base.
 //!
 //! For trees whose every link has one degree of freedom, with the coordinate and the speed of its own index, and
-//! whose links stand in the order of a walk: right after each link comes all that hangs on it.
+//! whose links stand in the order of a walk: right after each link comes all that hangs on it. The first link may move
+//! freely instead. It counts as six bodies in a row then, one for each of its speeds, at one place and with one velocity;
+//! the last of them has its mass. Nothing here depends on where the free base is: all is counted from its own origin.
 //!
 //! At 32 joints this is two to three times as fast as a straight line, whose code is too long for the cache.
 
@@ -21,26 +23,59 @@ use super::vector::Vector;
 use super::{Joint, Tree};
 use crate::scalar::Scalar;
 
-/// A tree of which link `k` has coordinate `k`, speed `k` and no other, and stands right before its descendants.
-pub struct InLanes<'t, T, const N: usize> {
-    tree: &'t Tree<T, N, N, N>,
+/// A tree of which link `k` has coordinate `k`, speed `k` and no other, and stands right before its descendants; or of which
+/// link 0 moves freely, with the first coordinates and speeds, and the others' follow. Bodies are counted by their speeds.
+pub struct InLanes<'t, T, const NL: usize, const NQ: usize, const N: usize> {
+    tree: &'t Tree<T, NL, NQ, N>,
 }
 
-impl<T: Scalar, const N: usize> Tree<T, N, N, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> Tree<T, NL, NQ, N> {
     /// The matrices in lanes. The links must be as [`InLanes`] says: the compiler sees to it.
     #[inline(always)]
-    pub fn in_lanes(&self) -> InLanes<'_, T, N> {
+    pub fn in_lanes(&self) -> InLanes<'_, T, NL, NQ, N> {
         InLanes { tree: self }
     }
 }
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
+    /// So many bodies are a free base.
+    const BASE: usize = if N > NL { 6 } else { 0 };
+    /// So many come before that of link 0.
+    const BEFORE: usize = Self::BASE.saturating_sub(1);
+
     fn parent(&self, k: usize) -> Option<usize> {
-        self.tree.links.get(k)?.parent
+        if k < Self::BASE {
+            return k.checked_sub(1);
+        }
+        self.tree.links.get(k - Self::BEFORE)?.parent.map(|link| link + Self::BEFORE)
+    }
+
+    /// For each body where what hangs on it ends.
+    fn ends(&self) -> [usize; N] {
+        let mut ends = [0; N];
+        for k in (0..N).rev() {
+            let end = ends.get(k).map_or(0, |end| (k + 1).max(*end));
+            set(&mut ends, k, end);
+            if let Some(parent) = self.parent(k).and_then(|parent| ends.get_mut(parent)) {
+                *parent = end.max(*parent);
+            }
+        }
+        ends
     }
 
     fn turns(&self, k: usize) -> bool {
-        self.tree.links.get(k).is_some_and(|link| matches!(link.joint, Joint::Revolute(..)))
+        let link = self.tree.links.get(k - Self::BEFORE);
+        link.is_some_and(|link| matches!(link.joint, Joint::Revolute(..)))
+    }
+
+    /// The coordinate of each body; none of a free base.
+    fn coordinates(&self, q: &[T; NQ]) -> [T; N] {
+        let mut coordinates = [T::zero(); N];
+        let after = NQ.saturating_sub(N);
+        for (own, q) in coordinates.iter_mut().zip(q.iter().skip(after)).skip(Self::BASE) {
+            *own = *q;
+        }
+        coordinates
     }
 
     /// What armatures add to the diagonal of M.

@@ -49,11 +49,25 @@ impl<T: Scalar, const N: usize> Placed<T, N> {
     }
 }
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
+    /// Upwards as fast as things fall.
+    pub(super) fn upwards(&self) -> Twist<T> {
+        Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) }
+    }
+
+    /// What a free base does at these speeds, or its part of accelerations that these are.
+    fn of_base(&self, placed: &Placed<T, N>, speeds: &[T; N]) -> Twist<T> {
+        (0..Self::BASE).fold(Twist::zero(), |sum, k| sum + placed.twist(k).scaled(at(speeds, k)))
+    }
+
     /// Writes the velocities for joint speeds `v`.
     pub(super) fn velocities(&self, placed: &Placed<T, N>, v: &[T; N], velocities: &mut TwistsInLanes<T, N>) {
-        let mut last = (N, Twist::zero());
-        for (k, offset) in placed.offsets.iter().enumerate() {
+        let base = self.of_base(placed, v);
+        for k in 0..Self::BASE {
+            velocities.set(k, base);
+        }
+        let mut last = (Self::BASE.wrapping_sub(1), base);
+        for (k, offset) in placed.offsets.iter().enumerate().skip(Self::BASE) {
             let parent = match self.parent(k) {
                 None => Twist::zero(),
                 Some(parent) if parent == last.0 => last.1,
@@ -73,11 +87,18 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         a: &[T; N],
         [velocities, accelerations]: [&mut TwistsInLanes<T, N>; 2],
     ) {
-        let base = (Twist::zero(), Twist { angular: Vector::zero(), linear: -Vector(self.tree.gravity) });
-        let mut last = (N, base);
-        for (k, offset) in placed.offsets.iter().enumerate() {
+        let world = (Twist::zero(), self.upwards());
+        let (velocity, rate) = (self.of_base(placed, v), self.of_base(placed, a));
+        let drift = Twist { angular: Vector::zero(), linear: velocity.angular.cross(velocity.linear) };
+        let base = (velocity, self.upwards() + drift + rate);
+        for k in 0..Self::BASE {
+            velocities.set(k, base.0);
+            accelerations.set(k, base.1);
+        }
+        let mut last = (Self::BASE.wrapping_sub(1), base);
+        for (k, offset) in placed.offsets.iter().enumerate().skip(Self::BASE) {
             let (velocity, acceleration) = match self.parent(k) {
-                None => base,
+                None => world,
                 Some(parent) if parent == last.0 => last.1,
                 Some(parent) => (velocities.at(parent), accelerations.at(parent)),
             };

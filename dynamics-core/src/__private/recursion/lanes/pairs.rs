@@ -37,22 +37,20 @@ impl<T: Scalar, const N: usize> Changes<T, N> {
 
 /// The pairs of a robot at a configuration.
 pub(super) struct Pairs<'a, T, const N: usize> {
-    robot: &'a InLanes<'a, T, N>,
+    /// What hangs on body k, and itself, are the bodies from k on to before this.
+    ends: [usize; N],
     placed: &'a Placed<T, N>,
     /// The wrenches of unit motions.
     rows: &'a WrenchesInLanes<T, N>,
 }
 
-impl<'r, T: Scalar, const N: usize> InLanes<'r, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
     pub(super) fn pairs<'a>(
-        &'a self,
+        &self,
         placed: &'a Placed<T, N>,
         rows: &'a WrenchesInLanes<T, N>,
-    ) -> Pairs<'a, T, N>
-    where
-        'r: 'a,
-    {
-        Pairs { robot: self, placed, rows }
+    ) -> Pairs<'a, T, N> {
+        Pairs { ends: self.ends(), placed, rows }
     }
 }
 
@@ -68,13 +66,13 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
             ($group:ident, $width:ident) => {
                 for first in parts($group, N) {
                     // From their first row on.
-                    let origin = self.placed.origins.at(first);
-                    self.shift(self.rows.both(), origin, first..N, &mut rows);
+                    let (origin, end) = (self.placed.origins.at(first), self.end_of($group, first));
+                    self.shift(self.rows.both(), origin, first..end, &mut rows);
                     for part in 0..$group / $width {
                         let first = first + part * $width;
                         let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
                         by_rows!(T, ROWS = STRIP, {
-                            for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
+                            for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
                                 let sums: [[T; ROWS]; $width] = products(&rows, row_in(&units), 0..6, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
@@ -90,11 +88,14 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         } else {
             masses_by!(COLUMNS, COLUMNS);
         }
-        mirror!(m, N);
-        for (i, j) in self.between_branches() {
-            m[i][j] = T::zero();
-            m[j][i] = T::zero();
+        if !self.is_chain() {
+            for j in 0..N {
+                for i in self.end(j)..N {
+                    m[j][i] = T::zero();
+                }
+            }
         }
+        mirror!(m, N);
         for (k, armature) in armatures.iter().enumerate() {
             m[k][k] = m[k][k] + *armature;
         }
@@ -124,8 +125,8 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         macro_rules! changes_by {
             ($group:ident, $width:ident) => {
                 for first in parts($group, N) {
-                    let origin = self.placed.origins.at(first);
-                    self.shift(self.rows.both(), origin, first..N, &mut below);
+                    let (origin, end) = (self.placed.origins.at(first), self.end_of($group, first));
+                    self.shift(self.rows.both(), origin, first..end, &mut below);
                     self.shift(self.placed.unit_twists(), origin, 0..first + $group, &mut above);
                     for part in 0..$group / $width {
                         let first = first + part * $width;
@@ -135,12 +136,15 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                         scale_all(&mut forcing, scale);
                         by_rows!(T, ROWS = STRIP, {
                             // On the diagonal and below it.
-                            for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
+                            for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
                                 let sums: [[T; ROWS]; $width] = products(&below, row_in(&moving), 0..9, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
                             // Above it.
                             for strip in 0..first / ROWS {
+                                if !self.carries::<ROWS>(strip, first) {
+                                    continue;
+                                }
                                 let sums: [[T; ROWS]; $width] = products(&above, row_in(&forcing), 0..6, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
@@ -170,9 +174,15 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         } else {
             changes_by!(COLUMNS, COLUMNS);
         }
-        for (i, j) in self.between_branches() {
-            m[i][j] = T::zero();
-            m[j][i] = T::zero();
+        if !self.is_chain() {
+            for j in 0..N {
+                for i in 0..j {
+                    m[j][i] = if self.end(i) > j { m[j][i] } else { T::zero() };
+                }
+                for i in self.end(j)..N {
+                    m[j][i] = T::zero();
+                }
+            }
         }
         for (k, entry) in diagonal.iter().enumerate().take(N) {
             m[k][k] = m[k][k] + *entry;
@@ -256,20 +266,28 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         columns
     }
 
-    /// The pairs of joints of which neither hangs on the other.
+    /// Behind all that hangs on body k.
     #[inline(always)]
-    fn between_branches(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let is_chain = (0..N).all(|k| self.robot.parent(k) == k.checked_sub(1));
-        (0..if is_chain { 0 } else { N }).flat_map(move |k| {
-            let mut on_the_way = self.robot.parent(k);
-            (0..k).rev().filter_map(move |i| {
-                if on_the_way != Some(i) {
-                    return Some((i, k));
-                }
-                on_the_way = self.robot.parent(i);
-                None
-            })
-        })
+    fn end(&self, k: usize) -> usize {
+        self.ends.get(k).copied().unwrap_or(N)
+    }
+
+    /// Behind all that hangs on so many bodies.
+    #[inline(always)]
+    fn end_of(&self, bodies: usize, first: usize) -> usize {
+        self.ends.iter().skip(first).take(bodies).copied().max().unwrap_or(N)
+    }
+
+    /// Whether a body at or after `first` hangs on one of a strip before it.
+    #[inline(always)]
+    fn carries<const ROWS: usize>(&self, strip: usize, first: usize) -> bool {
+        self.end_of(ROWS, strip * ROWS) > first
+    }
+
+    /// Whether each body hangs on the one before.
+    #[inline(always)]
+    fn is_chain(&self) -> bool {
+        self.ends.iter().all(|end| *end == N)
     }
 }
 

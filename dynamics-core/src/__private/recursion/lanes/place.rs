@@ -1,5 +1,7 @@
 //! Where the links are.
 
+use core::array::from_fn;
+
 use super::{InLanes, Vectors, at, set};
 use crate::__private::recursion::vector::{Matrix, Vector};
 use crate::scalar::Scalar;
@@ -10,7 +12,7 @@ pub(super) struct Placed<T, const N: usize> {
     axes: [Vectors<T, N>; 3],
     /// From the parents' origins to the links'.
     pub(super) offsets: [Vector<T>; N],
-    /// From the world's origin to the links'.
+    /// From the world's origin to the links', or from that of a free base.
     pub(super) origins: Vectors<T, N>,
     /// The joints' unit motions about the links' origins: their turn, and their slide.
     pub(super) turns: Vectors<T, N>,
@@ -27,26 +29,44 @@ struct Place<T> {
     origin: Four<T>,
 }
 
-impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
     /// Writes where they are, into zeros: what functions return is copied.
     #[inline]
-    pub(super) fn place(&self, q: &[T; N], placed: &mut Placed<T, N>) {
+    pub(super) fn place(&self, q: &[T; NQ], placed: &mut Placed<T, N>) {
         // Whether joints turn, as a factor: lanes do not branch.
         let (mut turns, mut slides) = ([T::zero(); N], [T::zero(); N]);
-        for k in 0..N {
+        for k in Self::BASE..N {
             set(if self.turns(k) { &mut turns } else { &mut slides }, k, T::one());
         }
-        let mut angles = *q;
+        let coordinates = self.coordinates(q);
+        let mut angles = coordinates;
         for (angle, turns) in angles.iter_mut().zip(&turns) {
             *angle *= *turns;
         }
         let [sines, cosines] = T::sin_cos_each(angles);
-        self.place_one_by_one(&sines, &cosines, q, &slides, placed);
-        for k in 0..N {
+        self.place_base(q, placed);
+        self.place_one_by_one(&sines, &cosines, &coordinates, &slides, placed);
+        for k in Self::BASE..N {
             let [.., z] = &placed.axes;
             let z = z.at(k);
             placed.turns.set(k, z.scaled(at(&turns, k)));
             placed.slides.set(k, z.scaled(at(&slides, k)));
+        }
+    }
+
+    /// A free base: at the origin, its own axes what it moves along and about.
+    #[inline(always)]
+    fn place_base(&self, q: &[T; NQ], placed: &mut Placed<T, N>) {
+        let ([_, _, _, quaternion @ ..], [link, ..]) =
+            (from_fn::<T, 7, _>(|i| at(q, i)), self.tree.links.as_slice())
+        else {
+            return;
+        };
+        let axes = Matrix(link.rotation).product(Matrix::of_quaternion(quaternion)).transpose().0;
+        let place = Place { axes: axes.map(|axis| four(Vector(axis))), origin: [T::zero(); 4] };
+        for (k, axis) in (0..Self::BASE).zip(axes.into_iter().chain(axes)) {
+            placed.write(k, &place);
+            if k < 3 { &mut placed.slides } else { &mut placed.turns }.set(k, Vector(axis));
         }
     }
 
@@ -56,21 +76,21 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
         &self,
         sines: &[T; N],
         cosines: &[T; N],
-        q: &[T; N],
+        coordinates: &[T; N],
         slides: &[T; N],
         placed: &mut Placed<T, N>,
     ) {
         let (o, i) = (T::zero(), T::one());
         let world = Place { axes: [[i, o, o, o], [o, i, o, o], [o, o, i, o]], origin: [o; 4] };
-        let mut last = world;
-        for (k, link) in self.tree.links.iter().enumerate() {
-            let parent = match link.parent {
+        let mut last = if let Some(base) = Self::BASE.checked_sub(1) { placed.place(base) } else { world };
+        for (link, k) in self.tree.links.iter().zip(Self::BEFORE..N).skip(Self::BASE - Self::BEFORE) {
+            let parent = match link.parent.map(|parent| parent + Self::BEFORE) {
                 None => world,
                 Some(parent) if parent + 1 == k => last,
                 Some(parent) => placed.place(parent),
             };
             let own = Matrix(link.rotation);
-            let along = own.third_column().scaled(at(q, k) * at(slides, k));
+            let along = own.third_column().scaled(at(coordinates, k) * at(slides, k));
             let [x, y, z] = own.about_z(at(sines, k), at(cosines, k)).transpose().0;
             let offset = combined(&parent.axes, (Vector(link.position) + along).0);
             let mut origin = parent.origin;
@@ -84,6 +104,11 @@ impl<T: Scalar, const N: usize> InLanes<'_, T, N> {
             set(&mut placed.offsets, k, Vector([x, y, z]));
         }
     }
+}
+
+#[inline(always)]
+fn four<T: Scalar>(Vector([x, y, z]): Vector<T>) -> Four<T> {
+    [x, y, z, T::zero()]
 }
 
 /// `x·a + y·b + z·c` for the axes a, b and c.
@@ -118,7 +143,6 @@ impl<T: Scalar, const N: usize> Placed<T, N> {
 
     #[inline(always)]
     fn place(&self, k: usize) -> Place<T> {
-        let four = |Vector([x, y, z]): Vector<T>| [x, y, z, T::zero()];
         let [x, y, z] = &self.axes;
         Place { axes: [four(x.at(k)), four(y.at(k)), four(z.at(k))], origin: four(self.origins.at(k)) }
     }
