@@ -4,6 +4,8 @@
 
 #[path = "long_robots/chain.rs"]
 mod chain;
+#[path = "long_robots/floating.rs"]
+mod floating;
 #[path = "long_robots/tree.rs"]
 mod tree;
 

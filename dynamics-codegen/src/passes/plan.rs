@@ -9,7 +9,7 @@ use crate::mechanics::branches;
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
 use crate::mechanics::equations::{Block, Method, Trait};
-use crate::model::{Drive, Link, Model, Passive};
+use crate::model::{Drive, Link, Model, Motion, Passive};
 use crate::spatial::Scalar as _;
 use crate::symbolic::Expr;
 
@@ -24,10 +24,14 @@ const LARGEST_STRAIGHT_SOLVE: usize = 7;
 /// The same of one whose branches are computed side by side, those that are alike counted once.
 const LARGEST_STRAIGHT_SOLVE_SIDE_BY_SIDE: usize = 10;
 
-/// The fewest joints whose Coriolis matrix and derivatives are computed in lanes: a straight line is as fast there.
-const FEWEST_IN_LANES: usize = 12;
-/// The same of the mass matrix, which takes a third of the statements.
-const FEWEST_MASSES_IN_LANES: usize = 20;
+/// Lanes over links take their time by the speeds, a straight line by the entries of a matrix: pairs of speeds of which one is
+/// on the other's way to the base, those of branches that are alike once. With so many entries for every two speeds a
+/// Coriolis matrix and derivatives are sooner done in lanes: a chain of twelve, or of ten on a free base.
+const ENTRIES_FOR_LANES: usize = 13;
+/// The same of a mass matrix, whose entries are a third of the work: a chain of twenty.
+const MASSES_FOR_LANES: usize = 21;
+/// What moves a free base is along and about its own axes: a straight line has its entries for so many of six speeds.
+const SPEEDS_OF_FREE_BASE: usize = 4;
 
 /// How a method is computed.
 pub enum Plan<'g> {
@@ -83,8 +87,10 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
-    /// How many joints there are if branches that are alike count as one; all of them where none are computed side by side.
+    /// How many speeds there are if branches that are alike count as one; all of them where none are computed side by side.
     unlike: usize,
+    /// So many entries of a matrix a straight line computes.
+    entries: usize,
     /// Whether the mass matrix is more than the tree's, so that it must be factored.
     must_factor: bool,
 }
@@ -104,9 +110,20 @@ impl Plans {
         let must_factor = !model.tree.terms.kinetic.is_empty();
         let is_side_by_side = run_time == RunTime::Core && is_plain;
         let sets = branches::of(&model.tree).filter(|_| is_side_by_side).map_or(vec![], |(_, sets)| sets);
-        let unlike = parents.len() - sets.iter().map(|set| set[1..].concat().len()).sum::<usize>();
+        let repeated: Vec<usize> = sets.iter().flat_map(|set| set[1..].concat()).collect();
+        let of_link = |k: usize| match links[k].motion {
+            Motion::Free => SPEEDS_OF_FREE_BASE,
+            motion => motion.speeds(),
+        };
+        let entries_of = |link: usize| {
+            let way = std::iter::successors(links[link].parent, |&k| links[k].parent);
+            let own = of_link(link);
+            own * way.map(of_link).sum::<usize>() + own * (own + 1) / 2
+        };
+        let unlike = (0..links.len()).filter(|k| !repeated.contains(k));
         Self {
-            unlike,
+            unlike: parents.len() - repeated.len(),
+            entries: unlike.map(entries_of).sum(),
             frames: model.tree.frames.len(),
             frame_joints,
             parents,
@@ -122,7 +139,7 @@ impl Plans {
             _ => self.statements(method) > LONGEST_STRAIGHT_LINE,
         };
         match method {
-            _ if self.fewest_in_lanes(method).is_some_and(|fewest| self.unlike >= fewest) => Form::Lanes,
+            _ if self.is_sooner_in_lanes(method) => Form::Lanes,
             Method::InverseDynamicsWithDerivatives => match self.form(Method::InverseDynamicsDerivatives) {
                 Form::StraightLine => Form::StraightLine,
                 _ => Form::Loops,
@@ -152,18 +169,18 @@ impl Plans {
         method != Method::InverseDynamicsWithDerivatives && self.form(method) == Form::Loops
     }
 
-    /// How many joints, those that are alike counted once, it takes for a method to be sooner done in lanes over links, if
-    /// it can be.
-    fn fewest_in_lanes(&self, method: Method) -> Option<usize> {
-        let fewest = match method {
-            Method::MassMatrix => FEWEST_MASSES_IN_LANES,
+    /// Whether a method is sooner done in lanes over links, and can be.
+    fn is_sooner_in_lanes(&self, method: Method) -> bool {
+        let entries_of_two = match method {
+            Method::MassMatrix => MASSES_FOR_LANES,
             Method::CoriolisMatrix
             | Method::EquationsOfMotion
             | Method::InverseDynamicsDerivatives
-            | Method::InverseDynamicsWithDerivatives => FEWEST_IN_LANES,
-            _ => return None,
+            | Method::InverseDynamicsWithDerivatives => ENTRIES_FOR_LANES,
+            _ => return false,
         };
-        self.suits_lanes.then_some(fewest)
+        let is_sooner = 2 * self.entries >= entries_of_two * self.ancestors.len();
+        self.suits_lanes && (is_sooner || self.statements(method) > LONGEST_STRAIGHT_LINE)
     }
 
     /// About how many statements a straight line would have, as measured on general chains and trees.
@@ -237,11 +254,18 @@ impl Plans {
     }
 }
 
-/// Whether the run time can compute the robot's matrices in lanes over links.
+/// Whether the run time can compute the robot's matrices in lanes over links: those of a tree of joints with a coordinate
+/// and a speed each, of which the first may move freely.
 fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
+    let is_free = links.first().is_some_and(|link| link.motion == Motion::Free);
+    let before = if is_free { [6, 5] } else { [0, 0] };
     let is_own = |(k, link): (usize, &Link<Expr<'_>>)| {
         let Drive { q, v, ratio, offset } = link.drive;
-        link.motion.speeds() == 1 && (q, v) == (k, k) && ratio.as_sign() == Some(1) && offset.is_zero()
+        match link.motion {
+            Motion::Free => [k, q, v] == [0, 0, 0],
+            Motion::Ball => false,
+            _ => ratio.as_sign() == Some(1) && offset.is_zero() && [q, v] == before.map(|before| before + k),
+        }
     };
     // In the order of a walk each link's parent is on the way from the link before it to the base.
     let follows = |k: usize| {
