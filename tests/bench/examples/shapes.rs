@@ -1,7 +1,7 @@
 //! Robots of other shapes and lengths than those of the race: `cargo run --release -p dynamics-bench --example shapes`.
 //!
 //! Whether the code is as fast where nobody looks: chains whose joints are no multiple of a register's lanes, five and six
-//! legs, two arms.
+//! legs, two arms, a humanoid; a long chain that nothing holds.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
 #![allow(clippy::duplicated_attributes, reason = "joints are locked alike")]
 
@@ -95,12 +95,97 @@ arms! { TwoArms:
     [0, -0.3, 0] b1 b2 b3 b4 b5 b6 b7, l1 l2 l3 l4 l5 l6 l7;
 }
 
+/// Bodies on a first one, which stands in the world by the joint given.
+macro_rules! bodies {
+    ($name:ident, $root:ident by $base:ident $(($axis:ident))?:
+        $($joint:ident $about:ident $parent:ident $body:ident [$($at:tt)*] [$($rpy:tt)*];)*
+    ) => {
+        #[derive(Dynamics)]
+        #[joint(base: $base $(($axis))?, world -> $root)]
+        #[body($root, mass = 6, com = [0.01, 0, 0.02], inertia = tensor(0.08, 0.001, 0.002, 0.09, 0.0003, 0.1))]
+        $(
+            #[joint($joint: revolute($about), $parent -> $body, at = [$($at)*], rpy = [$($rpy)*])]
+            #[body($body, mass = 1.5, com = [0.01, 0.02, 0.1], inertia = tensor(0.012, 0.0001, 0.0002, 0.023, 0.0003, 0.02))]
+        )*
+        struct $name;
+    };
+}
+
+bodies! { Snake, b0 by free:
+    j1 z b0 b1 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j2 z b1 b2 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j3 z b2 b3 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j4 z b3 b4 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j5 z b4 b5 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j6 z b5 b6 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j7 z b6 b7 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j8 z b7 b8 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j9 z b8 b9 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j10 z b9 b10 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j11 z b10 b11 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j12 z b11 b12 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j13 z b12 b13 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j14 z b13 b14 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j15 z b14 b15 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j16 z b15 b16 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j17 z b16 b17 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j18 z b17 b18 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j19 z b18 b19 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j20 z b19 b20 [0, 0.1, 0.25] [1.2, 0.3, 0];
+    j21 z b20 b21 [0, 0.1, 0.25] [1.2, 0.3, 0];
+}
+
+/// A trunk with a head, arms of seven joints and legs of six.
+macro_rules! humanoid {
+    ($name:ident by $($base:tt)*) => {
+        bodies! { $name, pelvis by $($base)*:
+                waist_yaw z pelvis waist [0, 0, 0.1] [0, 0, 0];
+                waist_roll x waist belly [0, 0, 0.05] [0, 0, 0];
+                waist_pitch y belly chest [0, 0, 0.05] [0, 0, 0];
+                neck_yaw z chest neck [0, 0, 0.4] [0, 0, 0];
+                neck_pitch y neck head [0, 0, 0.05] [0, 0, 0];
+                shoulder_pitch_l y chest shoulder_pitch_l_link [0, 0.2, 0.3] [0, 0, 0];
+                shoulder_roll_l x shoulder_pitch_l_link shoulder_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+                shoulder_yaw_l z shoulder_roll_l_link shoulder_yaw_l_link [0.01, 0, -0.12] [0, 0, 0];
+                elbow_l y shoulder_yaw_l_link elbow_l_link [0.01, 0, -0.12] [0, 0, 0];
+                forearm_l z elbow_l_link forearm_l_link [0.01, 0, -0.12] [0, 0, 0];
+                wrist_pitch_l y forearm_l_link wrist_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+                wrist_roll_l x wrist_pitch_l_link wrist_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+                shoulder_pitch_r y chest shoulder_pitch_r_link [0, -0.2, 0.3] [0, 0, 0];
+                shoulder_roll_r x shoulder_pitch_r_link shoulder_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+                shoulder_yaw_r z shoulder_roll_r_link shoulder_yaw_r_link [0.01, 0, -0.12] [0, 0, 0];
+                elbow_r y shoulder_yaw_r_link elbow_r_link [0.01, 0, -0.12] [0, 0, 0];
+                forearm_r z elbow_r_link forearm_r_link [0.01, 0, -0.12] [0, 0, 0];
+                wrist_pitch_r y forearm_r_link wrist_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+                wrist_roll_r x wrist_pitch_r_link wrist_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+                hip_yaw_l z pelvis hip_yaw_l_link [0, 0.1, -0.05] [0, 0, 0];
+                hip_roll_l x hip_yaw_l_link hip_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+                hip_pitch_l y hip_roll_l_link hip_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+                knee_l y hip_pitch_l_link knee_l_link [0.01, 0, -0.12] [0, 0, 0];
+                ankle_pitch_l y knee_l_link ankle_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+                ankle_roll_l x ankle_pitch_l_link ankle_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+                hip_yaw_r z pelvis hip_yaw_r_link [0, -0.1, -0.05] [0, 0, 0];
+                hip_roll_r x hip_yaw_r_link hip_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+                hip_pitch_r y hip_roll_r_link hip_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+                knee_r y hip_pitch_r_link knee_r_link [0.01, 0, -0.12] [0, 0, 0];
+                ankle_pitch_r y knee_r_link ankle_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+                ankle_roll_r x ankle_pitch_r_link ankle_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+        }
+    };
+}
+
+humanoid!(Humanoid by free);
+humanoid!(HeldHumanoid by revolute(z));
+
 fn main() {
     println!("| robot | speeds | M | C | M⁻¹ | ∂ID | ∂FD |\n|---|--:|--:|--:|--:|--:|--:|");
     row("one arm", &OneArm);
     row("two arms", &TwoArms);
     row("five legs", &FiveLegs);
     row("six legs", &SixLegs);
+    row("humanoid", &Humanoid);
+    row("humanoid, held", &HeldHumanoid);
+    row("floating chain of 21", &Snake);
     row("chain of 28", &Chain28);
     row("chain of 29", &Chain29);
     row("chain of 30", &Chain30);

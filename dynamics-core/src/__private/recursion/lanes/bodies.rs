@@ -38,7 +38,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     pub(super) fn moments(&self, placed: &Placed<T, N>, moments: &mut MomentsInLanes<T, N>) {
         let masses = &self.tree.masses;
         let [x, y, z] = &masses.first;
-        for (link, k) in (0..NL).zip(Self::BEFORE..N) {
+        for link in 0..NL {
+            let k = Self::BEFORE + link;
             let rotation = placed.rotation(k);
             let half = rotation.product(Matrix::symmetric(six_at(&masses.second, link))).0.map(Vector);
             let axes = rotation.0.map(Vector);

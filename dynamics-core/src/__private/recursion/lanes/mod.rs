@@ -50,8 +50,11 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         self.tree.links.get(k - Self::BEFORE)?.parent.map(|link| link + Self::BEFORE)
     }
 
-    /// For each body where what hangs on it ends.
-    fn ends(&self) -> [usize; N] {
+    /// For each body where what hangs on it ends; none for a chain, where that is the last one.
+    fn ends(&self) -> Option<[usize; N]> {
+        if (0..N).all(|k| self.parent(k) == k.checked_sub(1)) {
+            return None;
+        }
         let mut ends = [0; N];
         for k in (0..N).rev() {
             let end = ends.get(k).map_or(0, |end| (k + 1).max(*end));
@@ -60,7 +63,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
                 *parent = end.max(*parent);
             }
         }
-        ends
+        Some(ends)
     }
 
     fn turns(&self, k: usize) -> bool {
@@ -71,9 +74,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     /// The coordinate of each body; none of a free base.
     fn coordinates(&self, q: &[T; NQ]) -> [T; N] {
         let mut coordinates = [T::zero(); N];
-        let after = NQ.saturating_sub(N);
-        for (own, q) in coordinates.iter_mut().zip(q.iter().skip(after)).skip(Self::BASE) {
-            *own = *q;
+        for k in Self::BASE..N {
+            set(&mut coordinates, k, at(q, k + NQ.saturating_sub(N)));
         }
         coordinates
     }

@@ -37,8 +37,8 @@ impl<T: Scalar, const N: usize> Changes<T, N> {
 
 /// The pairs of a robot at a configuration.
 pub(super) struct Pairs<'a, T, const N: usize> {
-    /// What hangs on body k, and itself, are the bodies from k on to before this.
-    ends: [usize; N],
+    /// What hangs on body k, and itself, are the bodies from k on to before this; all, without it.
+    ends: Option<[usize; N]>,
     placed: &'a Placed<T, N>,
     /// The wrenches of unit motions.
     rows: &'a WrenchesInLanes<T, N>,
@@ -88,11 +88,9 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         } else {
             masses_by!(COLUMNS, COLUMNS);
         }
-        if !self.is_chain() {
-            for j in 0..N {
-                for i in self.end(j)..N {
-                    m[j][i] = T::zero();
-                }
+        for (j, end) in self.ends.iter().flatten().enumerate() {
+            for i in *end..N {
+                m[j][i] = T::zero();
             }
         }
         mirror!(m, N);
@@ -174,14 +172,12 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         } else {
             changes_by!(COLUMNS, COLUMNS);
         }
-        if !self.is_chain() {
-            for j in 0..N {
-                for i in 0..j {
-                    m[j][i] = if self.end(i) > j { m[j][i] } else { T::zero() };
-                }
-                for i in self.end(j)..N {
-                    m[j][i] = T::zero();
-                }
+        for (j, end) in self.ends.iter().flatten().enumerate() {
+            for (i, before) in self.ends.iter().flatten().enumerate().take(j) {
+                m[j][i] = if *before > j { m[j][i] } else { T::zero() };
+            }
+            for i in *end..N {
+                m[j][i] = T::zero();
             }
         }
         for (k, entry) in diagonal.iter().enumerate().take(N) {
@@ -266,28 +262,17 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
         columns
     }
 
-    /// Behind all that hangs on body k.
-    #[inline(always)]
-    fn end(&self, k: usize) -> usize {
-        self.ends.get(k).copied().unwrap_or(N)
-    }
-
-    /// Behind all that hangs on so many bodies.
+    /// Where all that hangs on some bodies ends.
     #[inline(always)]
     fn end_of(&self, bodies: usize, first: usize) -> usize {
-        self.ends.iter().skip(first).take(bodies).copied().max().unwrap_or(N)
+        let Some(ends) = &self.ends else { return N };
+        ends.iter().skip(first).take(bodies).copied().max().unwrap_or(N)
     }
 
     /// Whether a body at or after `first` hangs on one of a strip before it.
     #[inline(always)]
     fn carries<const ROWS: usize>(&self, strip: usize, first: usize) -> bool {
         self.end_of(ROWS, strip * ROWS) > first
-    }
-
-    /// Whether each body hangs on the one before.
-    #[inline(always)]
-    fn is_chain(&self) -> bool {
-        self.ends.iter().all(|end| *end == N)
     }
 }
 

@@ -44,7 +44,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             *angle *= *turns;
         }
         let [sines, cosines] = T::sin_cos_each(angles);
-        self.place_base(q, placed);
+        if Self::BASE > 0 {
+            self.place_base(q, placed);
+        }
         self.place_one_by_one(&sines, &cosines, &coordinates, &slides, placed);
         for k in Self::BASE..N {
             let [.., z] = &placed.axes;
@@ -83,7 +85,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let (o, i) = (T::zero(), T::one());
         let world = Place { axes: [[i, o, o, o], [o, i, o, o], [o, o, i, o]], origin: [o; 4] };
         let mut last = if let Some(base) = Self::BASE.checked_sub(1) { placed.place(base) } else { world };
-        for (link, k) in self.tree.links.iter().zip(Self::BEFORE..N).skip(Self::BASE - Self::BEFORE) {
+        for k in Self::BASE..N {
+            let Some(link) = self.tree.links.get(k - Self::BEFORE) else { continue };
             let parent = match link.parent.map(|parent| parent + Self::BEFORE) {
                 None => world,
                 Some(parent) if parent + 1 == k => last,
