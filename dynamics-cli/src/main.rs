@@ -16,6 +16,7 @@ mod failure;
 mod fields;
 mod generate;
 mod input;
+mod limits;
 mod linear;
 mod motion;
 mod output;

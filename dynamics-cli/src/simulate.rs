@@ -8,6 +8,7 @@ use dynamics_codegen::symbolic::Graph;
 
 use crate::absence::Absent;
 use crate::failure::{Failure, Problem};
+use crate::limits::Watch;
 use crate::motion::{FixedStep, Mover};
 use crate::output::{failed, writer};
 use crate::picture::{PictureArgs, Recording};
@@ -71,7 +72,8 @@ enum Integrator {
 }
 
 const EXAMPLES: &str = "\
-Whatever the method, ball and free joints move on their manifold, so that quaternions stay of unit length.
+Whatever the method, ball and free joints move on their manifold, so that quaternions stay of unit length. Nothing stops
+a joint at its limits; which were passed, when, and how far, is said on standard error.
 
 Columns:
   time                       s
@@ -158,6 +160,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let row = |time: f64, state: &State| row(&robot, time, state, start);
     write(&row(0.0, &state)?)?;
     recording.see(0, 0.0, &state)?;
+    let mut watch = Watch::of(&robot, &state);
     let mut mover = match args.method {
         Integrator::Rk4 => Mover::fixed(&robot, state, FixedStep::Rk4),
         Integrator::Euler => Mover::fixed(&robot, state, FixedStep::Euler),
@@ -168,7 +171,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let (before, now) = (clock.at(k - 1), clock.at(k));
         let lost_at = |(failure, time)| lost(failure, time, args.method);
         let lost = |failure| lost_at((failure, now));
-        mover.advance([before, now], args.time).map_err(lost_at)?;
+        mover.advance([before, now], args.time, |time, q, v| watch.see(time, q, v)).map_err(lost_at)?;
         if k.is_multiple_of(args.every) || k == clock.steps {
             write(&row(now, mover.state()).map_err(|absent| lost(absent.into()))?)?;
         }
@@ -180,6 +183,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(progress);
     // What was computed before anything went wrong is written, and drawn.
     out.flush().map_err(|error| failed(args.output.as_deref(), &error))?;
+    if !matches!(done, Err(Failure::PipeClosed)) {
+        watch.tell();
+    }
     recording.write().and(done)
 }
 

@@ -8,6 +8,7 @@ use super::equations::{listed, passive};
 use super::{Subject, stage};
 use crate::absence::Absent;
 use crate::failure::Failure;
+use crate::limits::limits;
 use crate::motion::{FixedStep, Mover};
 use crate::picture::charts::{self, Wish, parts};
 use crate::picture::{Moment, thinned};
@@ -70,15 +71,6 @@ pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Resu
     Ok(start)
 }
 
-/// The limits of a coordinate of one number; infinite where there are none. Files in which nobody knew them have 0 and 0:
-/// an interval that has no inside is no limit.
-pub(super) fn limits(robot: &Robot<'_>, q: usize, v: usize) -> [f64; 2] {
-    let joint = robot.model.joints.iter().find(|joint| joint.q.contains(&q));
-    let limits = joint.and_then(|joint| joint.limits.get(v - joint.v.start));
-    let limits = limits.filter(|limits| limits.lower < limits.upper);
-    limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| [limits.lower, limits.upper])
-}
-
 impl Swing {
     /// The motion from a state, in steps of `step`.
     pub(super) fn of(robot: &Robot<'_>, start: State, time: f64, step: f64) -> Result<Self, Failure> {
@@ -95,7 +87,7 @@ impl Swing {
         let mut mover = Mover::fixed(robot, start, FixedStep::Rk4);
         for k in 1..=clock.steps {
             let (before, now) = (clock.at(k - 1), clock.at(k));
-            let moved = mover.advance([before, now], time).map_err(|(failure, _)| failure);
+            let moved = mover.advance([before, now], time, |_, _, _| {}).map_err(|(failure, _)| failure);
             let seen = match moved.and_then(|()| Ok(moment(robot, now, mover.state())?)) {
                 Ok(seen) => seen,
                 Err(Failure::Wrong(problems)) => {
