@@ -355,7 +355,7 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
     });
 }
 
-/// A recursion over a table of links has no terms.
+/// What would be a recursion over a table of links, or calls one, which has no terms.
 fn check_lengths(spec: &RobotSpec, methods: &[mechanics::equations::Method], diags: &mut Diagnostics) {
     if let (false, Some(term)) = (methods.is_empty(), spec.terms.first()) {
         let names: Vec<_> = methods.iter().map(|method| format!("`{}`", method.name())).collect();
