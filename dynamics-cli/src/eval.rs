@@ -60,7 +60,8 @@ Output:
   frames                     of each --frame its pose in the world (rotation, translation), Jacobians in its own axes and
                              in the world's, and its velocity and acceleration in its own axes, linear first
 
-Matrices are lists of rows. In a state, a vector is a list of numbers, or an object of some by their names.
+Matrices are lists of rows. In a state, a vector is a list of numbers, or an object of some by their names; a text is a
+number with its unit, \"30deg\", \"30deg / 1s\".
 
 What has no value at the state is null: Minv and a where M(q) is singular, as that of a top which stands upright. An error
 says why, and the exit status is 1; all else has its value.

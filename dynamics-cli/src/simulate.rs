@@ -15,7 +15,7 @@ use crate::picture::{PictureArgs, Recording};
 use crate::progress::Progress;
 use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
-use crate::state;
+use crate::start;
 
 /// Simulate a robot that nothing drives, as CSV: time, coordinates, speeds and energies; and draw it
 #[derive(clap::Args)]
@@ -40,11 +40,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
-    /// Coordinates at the start: all of them, `0.1,-0.2`, or some by their names, `hinge=0.1`; the others are neutral
+    /// Coordinates at the start: all of them, `0.1,-20deg`, or some by their names, `hinge=0.1`; the others are neutral.
+    /// In rad and m, or with their units
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
-    /// Speeds at the start: all of them, or some by their names; the others are zero
+    /// Speeds at the start: all of them, or some by their names, `hinge=0.1` or `'hinge=30deg / 1s'`; the others are zero
     #[arg(long, allow_hyphen_values = true)]
     v: Option<String>,
 
@@ -140,9 +141,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let methods = [&METHODS[..], args.picture.methods()].concat();
     let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
     let mut state = State::neutral(&robot);
-    state::override_by("q", &mut state.q, args.q.as_deref(), &robot.coordinates.q)?;
-    state::override_by("v", &mut state.v, args.v.as_deref(), &robot.coordinates.v)?;
-    state::check_quaternions(&robot, &state.q)?;
+    start::put(&robot, &mut state, args.q.as_deref(), args.v.as_deref())?;
     if let Err(why) = robot.moves(&state) {
         let problem =
             Problem::new(format!("the robot cannot move at its start, q = {:?}: {}", state.q, why.fact()));

@@ -14,7 +14,7 @@ use crate::picture::charts::{self, Wish, parts};
 use crate::picture::{Moment, thinned};
 use crate::robot::{Robot, State};
 use crate::simulate::{Clock, energies};
-use crate::state;
+use crate::start;
 
 /// How far each joint that turns is from neutral where nothing else is said, rad.
 const OFF: f64 = 0.3;
@@ -65,9 +65,7 @@ pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Resu
             start.v[from..from + 3].fill(SPIN);
         }
     }
-    state::override_by("q", &mut start.q, q, &robot.coordinates.q)?;
-    state::override_by("v", &mut start.v, v, &robot.coordinates.v)?;
-    state::check_quaternions(robot, &start.q)?;
+    start::put(robot, &mut start, q, v)?;
     Ok(start)
 }
 

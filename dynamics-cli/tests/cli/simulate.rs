@@ -178,6 +178,30 @@ fn springs_and_dampers_of_options_act() {
     }
 }
 
+/// What attributes accept for a number, a start accepts; plain numbers are in SI units.
+#[test]
+fn a_start_may_have_units() {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6};
+    let cart = model("cartpole");
+    let begun = |options: &[&str]| {
+        let arguments = ["simulate", &cart, "--time", "0", "--step", "1"];
+        rows(&dynamics(&[&arguments[..], options].concat()).ok()).remove(0)[1..5].to_vec()
+    };
+    for (options, expected) in [
+        (&["--q", "-0.5,0.25", "--v", "1e-1,.5"][..], [-0.5, 0.25, 0.1, 0.5]),
+        (&["--q", "300mm, 90deg"], [0.3, FRAC_PI_2, 0.0, 0.0]),
+        (&["--q", "[-0.5, -pi / 4]"], [-0.5, -FRAC_PI_4, 0.0, 0.0]),
+        (&["--q", "hinge = 0.25rad", "--v", "slider=20cm/1s, hinge=30deg / 1s"], [0.0, 0.25, 0.2, FRAC_PI_6]),
+        (&["--v", "0m / 1s, -60deg / 2s"], [0.0, 0.0, 0.0, -FRAC_PI_6]),
+    ] {
+        let found = begun(options);
+        for (found, expected) in found.iter().zip(expected) {
+            // The nearest double, but for the rounding of a product.
+            assert!((found - expected).abs() <= f64::EPSILON * expected.abs(), "{options:?}: {found}");
+        }
+    }
+}
+
 /// A stone that is thrown up along a pole, and comes down again: `x = v·t − g·t²/2`.
 const STONE: &str = r#"<robot name="stone"><link name="pole"/>
   <link name="stone"><inertial><mass value="2"/>
