@@ -1,6 +1,7 @@
 //! `dynamics check FILE`: what was read, and whether it can be a robot.
 
-use dynamics_codegen::diagnostics::Place;
+use dynamics_codegen::diagnostics::{Diagnostics, Place};
+use dynamics_codegen::model::names::check_types;
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
@@ -9,6 +10,7 @@ use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
 use crate::absence::{Absence, listed, rough_term};
 use crate::failure::Failure;
+use crate::generate::rust_name;
 use crate::input::{Input, shown};
 use crate::output::{print, table};
 use crate::progress::Progress;
@@ -29,12 +31,31 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
     let robot = Robot::with_fields(&input, &graph, Wanted::Possible, &[])?;
+    let unwritten = unwritten(&input, &robot)?;
     let _progress = Progress::of("checking");
-    let text = summary(args, &input, &robot, &graph);
+    let text = summary(args, &input, &robot, &graph, &unwritten);
     print(&text.split('\n').map(shown).collect::<Vec<_>>().join("\n"))
 }
 
-fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) -> String {
+/// Why it cannot be written in Rust: of a struct that is a mistake, and a file may be for other uses.
+fn unwritten(input: &Input, robot: &Robot<'_>) -> Result<Vec<String>, Failure> {
+    let mut diags = Diagnostics::new();
+    if input.item().is_some() {
+        check_types(&robot.spec, &mut diags);
+        return diags.check().map(|()| vec![]).map_err(|found| Failure::mistakes(found, input));
+    }
+    let ident = syn::Ident::new(&rust_name(&robot.report), robot.spec.ident.span());
+    check_types(&RobotSpec { ident, ..robot.spec.clone() }, &mut diags);
+    Ok(diags.take().into_iter().map(|found| found.message).collect())
+}
+
+fn summary<'g>(
+    args: &Args,
+    input: &Input,
+    robot: &Robot<'g>,
+    graph: &'g Graph,
+    unwritten: &[String],
+) -> String {
     let Robot { spec, report, .. } = robot;
     let name =
         report.robot.as_deref().map_or(String::new(), |name| format!(" `{}`", name.replace('\n', " ")));
@@ -63,7 +84,8 @@ fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) 
     }
     text += "\nchecks\n";
     text += &checks(args, robot, graph);
-    let absent = absent(robot);
+    let unwritten: String = unwritten.iter().map(|why| format!("  code in Rust: {why}\n")).collect();
+    let absent = absent(robot) + &unwritten;
     if !absent.is_empty() {
         text += &format!("\nabsent\n{absent}");
     }

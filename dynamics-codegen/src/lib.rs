@@ -214,6 +214,7 @@ pub fn generate_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<Str
 ///
 /// All mistakes of the first phase that found any.
 pub fn generate_rust(spec: &RobotSpec) -> Result<String, Diagnostics> {
+    check_types(spec)?;
     let graph = Graph::new();
     let (model, compiled) = checked(spec, &graph, RunTime::Core)?;
     let item = emit::rust::Item::of(spec, &model);
@@ -297,6 +298,17 @@ pub fn judged<'g>(spec: &RobotSpec, graph: &'g Graph) -> Result<model::Model<'g>
     check_motions(spec, &model, graph, &mut diags);
     diags.check()?;
     Ok(model)
+}
+
+/// Bodies are types in Rust, and nowhere else. What else is wrong is said with those that cannot be.
+fn check_types(spec: &RobotSpec) -> Result<(), Diagnostics> {
+    let mut diags = Diagnostics::new();
+    model::names::check_types(spec, &mut diags);
+    if !diags.is_empty() {
+        let others = judged(spec, &Graph::new()).err();
+        others.into_iter().flat_map(|mut others| others.take()).for_each(|other| diags.push(other));
+    }
+    diags.check()
 }
 
 /// What cannot be seen in a formula: points that are always one, and what is always zero.

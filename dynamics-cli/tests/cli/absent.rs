@@ -291,3 +291,42 @@ fn what_terms_take_from_a_long_robot_is_named() {
         "{complaint}"
     );
 }
+
+/// Two links that differ, but not as types of Rust.
+const ALIKE: &str = r#"<robot name="alike"><link name="base"/>
+  <link name="arm_1"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="Arm1"><inertial><mass value="2"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="one" type="continuous"><parent link="base"/><child link="arm_1"/><axis xyz="1 0 0"/></joint>
+  <joint name="two" type="prismatic"><parent link="arm_1"/><child link="Arm1"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"#;
+
+/// Where no Rust is written, nothing keeps a robot from having them.
+#[test]
+fn links_that_are_one_type_are_refused_in_rust_alone() {
+    let on = |command: &[&str]| dynamics_on(ALIKE.as_bytes(), command);
+    let why = "the bodies `arm_1` and `Arm1` would both be the type `Arm1`";
+    let checked = on(&["check", "-"]).ok();
+    assert_eq!(absent(&checked), [format!("  code in Rust: {why}")], "{checked}");
+    assert!(on(&["generate", "-", "--lang", "rust"]).failed(1).contains(why));
+
+    let here = folder("alike");
+    on(&["generate", "-", "--lang", "c", "--outputs", "pose", "-o", here.to_str().unwrap()]).ok();
+    let header = std::fs::read_to_string(here.join("alike.h")).unwrap();
+    assert!(header.contains("alike_arm_1_pose") && header.contains("alike_arm1_pose"), "{header}");
+
+    let state = r#"{"q": [0, 0.5]}"#;
+    let values = on(&["eval", "-", "--only", "mass", "--frame", "*", "--state", state]).ok();
+    let values: Value = serde_json::from_str(&values).unwrap();
+    let place = |frame: &str| values["frames"][frame]["translation"][1].as_f64().unwrap();
+    assert_eq!((place("arm_1"), place("Arm1"), values["mass"].as_f64()), (0.0, 0.5, Some(3.0)));
+
+    // A struct is Rust.
+    std::fs::write(here.join("Cargo.toml"), "").unwrap();
+    std::fs::write(here.join("alike.urdf"), ALIKE).unwrap();
+    let file = here.join("robot.rs");
+    std::fs::write(&file, "#[derive(Dynamics)] #[dynamics(urdf = \"alike.urdf\")]\nstruct Alike;\n").unwrap();
+    let complaint = dynamics(&["check", file.to_str().unwrap()]).failed(1);
+    assert!(complaint.contains(why) && complaint.contains("alike.urdf:4:"), "{complaint}");
+}
