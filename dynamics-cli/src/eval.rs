@@ -147,7 +147,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     // What nobody has asked for by its name is not missed.
     outputs.retain(|output| {
         robot.has(output.method)
-            || Absence::of_method(output.method, &robot) != Absence::Massless
+            || Absence::of_method(output.method, &robot) == Absence::TooLong
             || args.only.iter().any(|name| name == output.key)
     });
     let state = state::read(&args.state, &args.input.file, &robot)?;

@@ -40,7 +40,7 @@ pub(crate) struct Robot<'g> {
 /// What is compiled of a robot.
 #[derive(Clone, Copy)]
 pub(crate) enum Wanted<'a> {
-    /// These methods.
+    /// These methods, as far as it can have them.
     Only(&'a [Method]),
     /// The methods of robots that this one can have, and those that its struct asks for.
     Possible,
@@ -80,7 +80,7 @@ impl<'g> Robot<'g> {
         let wrong = |found| Failure::mistakes(found, input);
         let (mut spec, report) = input.spec(fields)?;
         match wanted {
-            Wanted::Only(methods) => spec.options.outputs = Some(names(methods)),
+            Wanted::Only(methods) => spec.options.outputs = Some(names(&had(methods, &spec, input)?)),
             Wanted::Possible => spec.options.outputs = Some(possible(&spec, input)?),
             Wanted::All => {}
         }
@@ -209,16 +209,21 @@ fn names(methods: &[Method]) -> Vec<Name> {
     methods.iter().map(name).collect()
 }
 
+/// Those of these methods that terms leave to a robot: it would be refused for asking for others.
+fn had(methods: &[Method], spec: &RobotSpec, input: &Input) -> Result<Vec<Method>, Failure> {
+    if spec.terms.is_empty() {
+        return Ok(methods.to_vec());
+    }
+    let graph = Graph::new();
+    let model = judged(spec, &graph).map_err(|found| Failure::mistakes(found, input))?;
+    let lacks = lacks(&model, RunTime::Core);
+    let is_had = |method: &&Method| !lacks.contains(&(**method, Lack::LoopsWithoutTerms));
+    Ok(methods.iter().filter(is_had).copied().collect())
+}
+
 /// The methods that a robot can have, and those that its struct asks for, so that it is refused where the derive refuses it.
 fn possible(spec: &RobotSpec, input: &Input) -> Result<Vec<Name>, Failure> {
-    let mut methods = Method::OF_ROBOT.to_vec();
-    // Without terms nothing is refused.
-    if !spec.terms.is_empty() {
-        let graph = Graph::new();
-        let model = judged(spec, &graph).map_err(|found| Failure::mistakes(found, input))?;
-        let lacks = lacks(&model, RunTime::Core);
-        methods.retain(|method| !lacks.contains(&(*method, Lack::LoopsWithoutTerms)));
-    }
+    let methods = had(&Method::OF_ROBOT, spec, input)?;
     let is_of_robot = |name: &&Name| Method::OF_ROBOT.iter().any(|method| method.name() == name.text);
     let asked = match (input.item(), &spec.options.outputs) {
         (None, _) => vec![],

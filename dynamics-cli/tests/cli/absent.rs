@@ -261,6 +261,10 @@ fn what_terms_take_from_a_long_robot_is_named() {
         names.contains(&"inverse_dynamics_derivatives") && names.contains(&"forward_dynamics_derivatives"),
         "{line}"
     );
+    let evaluated = |only: &[&str]| dynamics_on(chain(34).as_bytes(), &[&["eval", "-", term], only].concat());
+    let (values, complaint) = partly(evaluated(&["--only", "M,dtau_dq"]));
+    assert!(values["M"].is_array() && values["dtau_dq"].is_null() && complaint.contains(why), "{complaint}");
+    evaluated(&["--only", "C,tau,a"]).ok();
     // Each of them is refused, and the others are not.
     let generate = |outputs: &str| {
         let options = ["generate", "-", "--lang", "rust", term, "--outputs", outputs];
