@@ -1,9 +1,10 @@
 //! Why an output has no value at a state.
 
-use dynamics_codegen::mechanics::equations::{Method, Trait};
+use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rough, rough};
 use dynamics_codegen::mechanics::singular::{idle_motion_at, is_idle_everywhere};
 use dynamics_codegen::model::Tree;
+use dynamics_codegen::passes::{Lack, RunTime, lacks};
 use dynamics_codegen::spec::TermKind::{self, Dissipation, Kinetic, Potential};
 use dynamics_codegen::spec::{RobotSpec, TermSpec};
 
@@ -15,6 +16,8 @@ use crate::robot::{Robot, State};
 pub(crate) enum Absence {
     /// Of this robot the method would be too long.
     TooLong,
+    /// It would be too long but for loops, and these have no terms of the energies.
+    LoopsWithoutTerms,
     /// It is about mass, and no body that moves has any.
     Massless,
     /// These speeds can be together without moving any mass: M(q) is singular.
@@ -31,8 +34,22 @@ pub(crate) enum Absence {
 
 impl Absence {
     /// Why a robot has no method of this name.
-    pub(crate) fn of_method(method: Method) -> Self {
-        if method.trait_() == Trait::CentroidalDynamics { Self::Massless } else { Self::TooLong }
+    pub(crate) fn of_method(method: Method, robot: &Robot<'_>) -> Self {
+        let lack = lacks(&robot.model, RunTime::Core).into_iter().find(|(lacking, _)| *lacking == method);
+        lack.map_or(Self::TooLong, |(_, lack)| lack.into())
+    }
+
+    /// The methods that a robot has not, by reason.
+    pub(crate) fn of_methods(robot: &Robot<'_>) -> Vec<(Self, Vec<String>)> {
+        let mut reasons: Vec<(Self, Vec<String>)> = vec![];
+        for (method, lack) in lacks(&robot.model, RunTime::Core) {
+            let (why, name) = (Self::from(lack), method.name().to_owned());
+            match reasons.iter_mut().find(|(known, _)| *known == why) {
+                Some((_, methods)) => methods.push(name),
+                None => reasons.push((why, vec![name])),
+            }
+        }
+        reasons
     }
 
     /// Why a method that a robot has is not finite at a state.
@@ -68,6 +85,10 @@ impl Absence {
     pub(crate) fn fact(&self) -> String {
         match self {
             Self::TooLong => "the program would be too long".to_owned(),
+            Self::LoopsWithoutTerms => {
+                "the program would be too long: with terms in the energies it is written without loops"
+                    .to_owned()
+            }
             Self::Massless => "no body that moves has mass".to_owned(),
             Self::Idle(speeds) => format!("M(q) is singular, since {}", idle(speeds)),
             Self::AlwaysIdle(speeds) => {
@@ -83,7 +104,9 @@ impl Absence {
     pub(crate) fn help(&self, option: &str) -> String {
         let other = format!("choose another `q` by `{option}`");
         match self {
-            Self::TooLong | Self::Massless => "name the outputs that are needed by `--only`".to_owned(),
+            Self::TooLong | Self::LoopsWithoutTerms | Self::Massless => {
+                "name the outputs that are needed by `--only`".to_owned()
+            }
             Self::Idle(speeds) if speeds.len() == 1 => format!("{other}, where it moves some mass"),
             Self::Idle(_) => {
                 other + "; or, where turns meet in one point, write a `ball` joint, which has no such `q`"
@@ -108,6 +131,16 @@ impl Absence {
     }
 }
 
+impl From<Lack> for Absence {
+    fn from(lack: Lack) -> Self {
+        match lack {
+            Lack::TooLong => Self::TooLong,
+            Lack::LoopsWithoutTerms => Self::LoopsWithoutTerms,
+            Lack::Massless => Self::Massless,
+        }
+    }
+}
+
 /// A method without a value.
 pub(crate) struct Absent {
     pub(crate) method: Method,
@@ -129,7 +162,7 @@ fn idle(speeds: &[String]) -> String {
 }
 
 /// As in "`a`, `b` and `c`".
-fn listed(names: &[String]) -> String {
+pub(crate) fn listed(names: &[String]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted.as_slice() {
         [] => String::new(),

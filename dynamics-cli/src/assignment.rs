@@ -98,14 +98,8 @@ impl Assignment {
 
     /// A mistake that the compiler has a word for.
     pub(crate) fn wrong(&self, found: &Diagnostic) -> Problem {
-        let range = match &found.place {
-            Place::Tokens { start, end } => {
-                columns(*start).zip(columns(*end)).map(|(start, end)| start.start..end.end)
-            }
-            Place::Text { .. } => None,
-        };
         let problem = Problem { code: Some(found.code.to_string()), ..Problem::new(found.message.clone()) };
-        let range = range.unwrap_or(0..self.text.chars().count());
+        let range = place_of(found).unwrap_or(0..self.text.chars().count());
         // The catalogue's help is about attributes.
         let is_of_catalogue = found.code == Code::Syntax && found.help.is_none();
         let help = if is_of_catalogue { self.kind.forms } else { found.help_text() };
@@ -116,6 +110,16 @@ impl Assignment {
 /// Reads some tokens as a formula; `around` is their place if there are none.
 pub(crate) fn formula(tokens: &[TokenTree], around: Span) -> Result<Formula, Diagnostic> {
     Formula::read(tokens.iter().cloned().collect(), around)
+}
+
+/// Where in an option a mistake is, if it is in one.
+pub(crate) fn place_of(found: &Diagnostic) -> Option<Range<usize>> {
+    match &found.place {
+        Place::Tokens { start, end } => {
+            columns(*start).zip(columns(*end)).map(|(start, end)| start.start..end.end)
+        }
+        Place::Text { .. } => None,
+    }
 }
 
 /// Where a token stands in an option, if it is of one.

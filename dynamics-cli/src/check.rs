@@ -1,15 +1,16 @@
 //! `dynamics check FILE`: what was read, and whether it can be a robot.
 
-use dynamics_codegen::diagnostics::Place;
-use dynamics_codegen::mechanics::equations::Method;
+use dynamics_codegen::diagnostics::{Diagnostics, Place};
+use dynamics_codegen::model::names::check_types;
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
 use dynamics_codegen::spec::urdf::Note;
 use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
 use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
-use crate::absence::{Absence, rough_term};
+use crate::absence::{Absence, listed, rough_term};
 use crate::failure::Failure;
+use crate::generate::rust_name;
 use crate::input::{Input, shown};
 use crate::output::{print, table};
 use crate::progress::Progress;
@@ -29,13 +30,32 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
-    let robot = Robot::with_fields(&input, &graph, Wanted::Only(&Method::OF_ROBOT), &[])?;
+    let robot = Robot::with_fields(&input, &graph, Wanted::Possible, &[])?;
+    let unwritten = unwritten(&input, &robot)?;
     let _progress = Progress::of("checking");
-    let text = summary(args, &input, &robot, &graph);
+    let text = summary(args, &input, &robot, &graph, &unwritten);
     print(&text.split('\n').map(shown).collect::<Vec<_>>().join("\n"))
 }
 
-fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) -> String {
+/// Why it cannot be written in Rust: of a struct that is a mistake, and a file may be for other uses.
+fn unwritten(input: &Input, robot: &Robot<'_>) -> Result<Vec<String>, Failure> {
+    let mut diags = Diagnostics::new();
+    if input.item().is_some() {
+        check_types(&robot.spec, &mut diags);
+        return diags.check().map(|()| vec![]).map_err(|found| Failure::mistakes(found, input));
+    }
+    let ident = syn::Ident::new(&rust_name(&robot.report), robot.spec.ident.span());
+    check_types(&RobotSpec { ident, ..robot.spec.clone() }, &mut diags);
+    Ok(diags.take().into_iter().map(|found| found.message).collect())
+}
+
+fn summary<'g>(
+    args: &Args,
+    input: &Input,
+    robot: &Robot<'g>,
+    graph: &'g Graph,
+    unwritten: &[String],
+) -> String {
     let Robot { spec, report, .. } = robot;
     let name =
         report.robot.as_deref().map_or(String::new(), |name| format!(" `{}`", name.replace('\n', " ")));
@@ -45,7 +65,8 @@ fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) 
         false => counted(report.links, "body", "bodies"),
     };
     text += &format!("  {parts}, {}\n", joints(input, spec, report.joints));
-    for fact in [base(input, robot), freedom(robot), mass(robot), parameters(robot)] {
+    let facts = [Some(base(input, robot)), Some(freedom(robot)), Some(mass(robot)), parameters(robot)];
+    for fact in facts.into_iter().flatten() {
         text += &format!("  {fact}\n");
     }
     text += "\ntree\n";
@@ -63,13 +84,18 @@ fn summary<'g>(args: &Args, input: &Input, robot: &Robot<'g>, graph: &'g Graph) 
     }
     text += "\nchecks\n";
     text += &checks(args, robot, graph);
+    let unwritten: String = unwritten.iter().map(|why| format!("  code in Rust: {why}\n")).collect();
+    let absent = absent(robot) + &unwritten;
+    if !absent.is_empty() {
+        text += &format!("\nabsent\n{absent}");
+    }
     for (title, notes) in [
         ("merged", &report.merged),
         ("ignored", &report.ignored),
         ("snapped", &report.snapped),
         ("remarks", &report.remarks),
     ] {
-        text += &listed(title, notes, input);
+        text += &self::notes(title, notes, input);
     }
     text
 }
@@ -142,11 +168,12 @@ pub(crate) fn mass(robot: &Robot<'_>) -> String {
     format!("{} kg{at_rest}", plain(moving + base))
 }
 
-pub(crate) fn parameters(robot: &Robot<'_>) -> String {
+/// How many parameters its regressor has, if it has one.
+pub(crate) fn parameters(robot: &Robot<'_>) -> Option<String> {
     let compiled = &robot.compiled;
     match (compiled.base_parameter_names.len(), compiled.parameter_names.len()) {
-        (_, 0) => "too large for a regressor".to_owned(),
-        (base, all) => format!("{base} base parameters, of {all} parameters"),
+        (_, 0) => None,
+        (base, all) => Some(format!("{base} base parameters, of {all} parameters")),
     }
 }
 
@@ -315,8 +342,14 @@ fn checks<'g>(args: &Args, robot: &Robot<'g>, graph: &'g Graph) -> String {
     )
 }
 
+/// The methods that it does not get, and why.
+fn absent(robot: &Robot<'_>) -> String {
+    let line = |(why, methods): &(Absence, Vec<String>)| format!("  {}: {}\n", listed(methods), why.fact());
+    Absence::of_methods(robot).iter().map(line).collect()
+}
+
 /// Notes under a title.
-fn listed(title: &str, notes: &[Note], input: &Input) -> String {
+fn notes(title: &str, notes: &[Note], input: &Input) -> String {
     let lines: String = placed(notes, input).iter().map(|line| format!("  {line}\n")).collect();
     if lines.is_empty() { lines } else { format!("\n{title}\n{lines}") }
 }

@@ -43,6 +43,17 @@ fn short_number(value: Number) -> Number {
     }
 }
 
+/// A number with as many digits as people care for.
+pub(crate) fn rounded(value: f64) -> f64 {
+    format!("{value:.*e}", DIGITS - 1).parse().unwrap_or(value)
+}
+
+/// A number in a sentence.
+pub(crate) fn said(value: f64) -> String {
+    let text = format!("{value:?}");
+    text.strip_suffix(".0").unwrap_or(&text).to_owned()
+}
+
 /// The nearest decimal of so many digits.
 fn of_digits(digits: usize, value: Number) -> Option<Number> {
     Number::parse_decimal(&format!("{:.*e}", digits - 1, value.to_f64()))

@@ -60,7 +60,8 @@ Output:
   frames                     of each --frame its pose in the world (rotation, translation), Jacobians in its own axes and
                              in the world's, and its velocity and acceleration in its own axes, linear first
 
-Matrices are lists of rows. In a state, a vector is a list of numbers, or an object of some by their names.
+Matrices are lists of rows. In a state, a vector is a list of numbers, or an object of some by their names; a text is a
+number with its unit, \"30deg\", \"30deg / 1s\".
 
 What has no value at the state is null: Minv and a where M(q) is singular, as that of a top which stands upright. An error
 says why, and the exit status is 1; all else has its value.
@@ -146,7 +147,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     // What nobody has asked for by its name is not missed.
     outputs.retain(|output| {
         robot.has(output.method)
-            || Absence::of_method(output.method) != Absence::Massless
+            || Absence::of_method(output.method, &robot) == Absence::TooLong
             || args.only.iter().any(|name| name == output.key)
     });
     let state = state::read(&args.state, &args.input.file, &robot)?;

@@ -138,16 +138,25 @@ fn checked(name: &str, lang: Language) -> Result<&str, Failure> {
 
 /// The robot's name as that of a type or a prefix, if it can be one.
 fn name_in_file(report: &Report, lang: Language) -> String {
-    let name = report.robot.as_deref().unwrap_or_default();
-    if lang == Language::C {
-        let letter = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
-        let mut prefix: String = snake_case(name).chars().filter(letter).take(PREFIX_LIMIT).collect();
-        prefix.truncate(prefix.trim_end_matches('_').len());
-        return if check_prefix(&prefix).is_ok() { prefix } else { NAME.to_lowercase() };
+    match lang {
+        Language::Rust => rust_name(report),
+        Language::C => prefix(report),
     }
-    let name = upper_camel_case(name);
+}
+
+/// The name of a robot's struct, if nobody gives it another one.
+pub(crate) fn rust_name(report: &Report) -> String {
+    let name = upper_camel_case(report.robot.as_deref().unwrap_or_default());
     let fits = syn::parse_str::<syn::Ident>(&name).is_ok() && !hides_a_common_name(&name);
     if fits { name } else { NAME.to_owned() }
+}
+
+fn prefix(report: &Report) -> String {
+    let letter = |c: &char| c.is_ascii_alphanumeric() || *c == '_';
+    let name = snake_case(report.robot.as_deref().unwrap_or_default());
+    let mut prefix: String = name.chars().filter(letter).take(PREFIX_LIMIT).collect();
+    prefix.truncate(prefix.trim_end_matches('_').len());
+    if check_prefix(&prefix).is_ok() { prefix } else { NAME.to_lowercase() }
 }
 
 /// What stands first in a file: what it was made from, and how to make it again.

@@ -165,20 +165,30 @@ impl<'r, 'g> Mover<'r, 'g> {
         &self.state
     }
 
-    /// Goes from one time to another, in s, of a motion that ends with `end`; or says what is wrong, and when.
-    pub(crate) fn advance(&mut self, [before, now]: [f64; 2], end: f64) -> Result<(), (Failure, f64)> {
+    /// Goes from one time to another, in s, of a motion that ends with `end`; or says what is wrong, and when. What is at
+    /// the end of each step on the way, `q` and `v`, is shown to `see`.
+    pub(crate) fn advance(
+        &mut self,
+        [before, now]: [f64; 2],
+        end: f64,
+        mut see: impl FnMut(f64, &[f64], &[f64]),
+    ) -> Result<(), (Failure, f64)> {
         let State { q, v, .. } = &self.state;
         self.flow.absent = None;
         let reached = match &mut self.by {
             By::Fixed(method) => Ok(method.follow(&mut self.flow, before, (q, v), now - before)),
-            By::Adaptive(march) => march.reach(&mut self.flow, now, end).map_err(|error| match error {
-                Error::StepTooSmall { time } => ("no step is small enough for the tolerance", time),
-                _ => (NOT_FINITE, march.time()),
-            }),
+            By::Adaptive(march) => {
+                let reached = reach(march, &mut self.flow, [before, now], end, &mut see);
+                reached.map_err(|error| match error {
+                    Error::StepTooSmall { time } => ("no step is small enough for the tolerance", time),
+                    _ => (NOT_FINITE, march.time()),
+                })
+            }
         };
         let finite = |x: &[f64]| x.iter().all(|x| x.is_finite());
         match reached {
             Ok((q, v)) if finite(&q) && finite(&v) => {
+                see(now, &q, &v);
                 (self.state.q, self.state.v) = (q, v);
                 Ok(())
             }
@@ -191,6 +201,26 @@ impl<'r, 'g> Mover<'r, 'g> {
             }
         }
     }
+}
+
+/// Position and velocity at a time, where steps that end before it are shown on the way.
+fn reach(
+    march: &mut March<f64, Vec<f64>, Vec<f64>>,
+    flow: &mut Unforced<'_, '_>,
+    [before, now]: [f64; 2],
+    end: f64,
+    see: &mut impl FnMut(f64, &[f64], &[f64]),
+) -> Result<(Vec<f64>, Vec<f64>), Error> {
+    while march.time() < now {
+        let time = march.time();
+        if time > before {
+            let (q, v) = march.reach(flow, time, end)?;
+            see(time, &q, &v);
+        }
+        // What is behind a step by ever so little takes the next one.
+        march.reach(flow, time.next_up(), end)?;
+    }
+    march.reach(flow, now, end)
 }
 
 const NOT_FINITE: &str = "the state is not finite";

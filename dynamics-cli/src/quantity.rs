@@ -30,6 +30,11 @@ pub(crate) fn number(formula: &Formula, unit: Option<Exponents>, place: &str) ->
     if value.to_f64().is_finite() { Ok(value) } else { Err(out_of_range(formula)) }
 }
 
+/// The unit that a formula has of itself.
+pub(crate) fn unit(formula: &Formula) -> Result<Option<Exponents>, Diagnostic> {
+    of(formula).map(|(_, unit)| unit)
+}
+
 fn of(formula: &Formula) -> Result<Value, Diagnostic> {
     Ok(match &formula.kind {
         FormulaKind::Number(value, None) => (*value, None),

@@ -1,14 +1,14 @@
 //! A robot that can be asked for numbers: its programs, run by the interpreter.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
-use dynamics_codegen::checked;
 use dynamics_codegen::mechanics::equations::{Argument, Input as Symbol, Method};
 use dynamics_codegen::mechanics::plain::{Cholesky, Oracle, Rows, total_mass};
 use dynamics_codegen::model::{Model, Tree};
-use dynamics_codegen::passes::{Compiled, Plan, RunTime};
+use dynamics_codegen::passes::{Compiled, Lack, Plan, RunTime, lacks};
 use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::spec::{Name, RobotSpec};
 use dynamics_codegen::symbolic::{Evaluator, Graph};
+use dynamics_codegen::{checked, judged};
 use proc_macro2::Span;
 
 use crate::absence::{Absence, Absent};
@@ -40,8 +40,10 @@ pub(crate) struct Robot<'g> {
 /// What is compiled of a robot.
 #[derive(Clone, Copy)]
 pub(crate) enum Wanted<'a> {
-    /// These methods.
+    /// These methods, as far as it can have them.
     Only(&'a [Method]),
+    /// The methods of robots that this one can have, and those that its struct asks for.
+    Possible,
     /// All methods, those of its frames too.
     All,
 }
@@ -77,10 +79,10 @@ impl<'g> Robot<'g> {
         let _progress = Progress::of(&format!("compiling {}", input.name));
         let wrong = |found| Failure::mistakes(found, input);
         let (mut spec, report) = input.spec(fields)?;
-        if let Wanted::Only(methods) = wanted {
-            let name =
-                |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
-            spec.options.outputs = Some(methods.iter().map(name).collect());
+        match wanted {
+            Wanted::Only(methods) => spec.options.outputs = Some(names(&had(methods, &spec, input)?)),
+            Wanted::Possible => spec.options.outputs = Some(possible(&spec, input)?),
+            Wanted::All => {}
         }
         let (model, compiled) = checked(&spec, graph, RunTime::Core).map_err(wrong)?;
         // What depends on fields is asked of programs alone.
@@ -98,7 +100,7 @@ impl<'g> Robot<'g> {
     /// What a method returns, all entries in order, by rows; finite numbers.
     pub(crate) fn evaluate(&self, method: Method, state: &State) -> Result<Vec<f64>, Absent> {
         if !self.has(method) {
-            return Err(Absent { method, why: Absence::of_method(method) });
+            return Err(Absent { method, why: Absence::of_method(method, self) });
         }
         match self.compute(method, state) {
             // No negative zeros.
@@ -200,6 +202,35 @@ impl<'g> Robot<'g> {
             | Method::BaseParameters => return None,
         })
     }
+}
+
+fn names(methods: &[Method]) -> Vec<Name> {
+    let name = |method: &Method| Name { text: method.name().to_owned(), place: Span::call_site().into() };
+    methods.iter().map(name).collect()
+}
+
+/// Those of these methods that terms leave to a robot: it would be refused for asking for others.
+fn had(methods: &[Method], spec: &RobotSpec, input: &Input) -> Result<Vec<Method>, Failure> {
+    if spec.terms.is_empty() {
+        return Ok(methods.to_vec());
+    }
+    let graph = Graph::new();
+    let model = judged(spec, &graph).map_err(|found| Failure::mistakes(found, input))?;
+    let lacks = lacks(&model, RunTime::Core);
+    let is_had = |method: &&Method| !lacks.contains(&(**method, Lack::LoopsWithoutTerms));
+    Ok(methods.iter().filter(is_had).copied().collect())
+}
+
+/// The methods that a robot can have, and those that its struct asks for, so that it is refused where the derive refuses it.
+fn possible(spec: &RobotSpec, input: &Input) -> Result<Vec<Name>, Failure> {
+    let methods = had(&Method::OF_ROBOT, spec, input)?;
+    let is_of_robot = |name: &&Name| Method::OF_ROBOT.iter().any(|method| method.name() == name.text);
+    let asked = match (input.item(), &spec.options.outputs) {
+        (None, _) => vec![],
+        (Some(_), Some(written)) => written.iter().filter(is_of_robot).cloned().collect(),
+        (Some(_), None) => names(&Method::OF_ROBOT),
+    };
+    Ok([names(&methods), asked].concat())
 }
 
 impl State {

@@ -29,7 +29,7 @@ use crate::progress::Progress;
 use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
 use crate::simulate::{Clock, METHODS, duration, step};
-use crate::state;
+use crate::start;
 
 /// Simulate a robot many times, with what varies drawn at random or on a grid, as CSV or Parquet
 #[derive(clap::Args)]
@@ -67,11 +67,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value = "0")]
     seed: u64,
 
-    /// Coordinates at the start: all of them, `0.1,-0.2`, or some by their names, `hinge=0.1`; the others are neutral
+    /// Coordinates at the start: all of them, `0.1,-20deg`, or some by their names, `hinge=0.1`; the others are neutral.
+    /// In rad and m, or with their units
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
-    /// Speeds at the start: all of them, or some by their names; the others are zero
+    /// Speeds at the start: all of them, or some by their names, `hinge=0.1` or `'hinge=30deg / 1s'`; the others are zero
     #[arg(long, allow_hyphen_values = true)]
     v: Option<String>,
 
@@ -114,9 +115,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let study = Study::of(&robot, &given, args.count, args.seed)?;
     unless_known(&robot.model, |k| study.axes.iter().any(|axis| axis.target == Target::Field(k)))?;
     let mut start = State::neutral(&robot);
-    state::override_by("q", &mut start.q, args.q.as_deref(), &robot.coordinates.q)?;
-    state::override_by("v", &mut start.v, args.v.as_deref(), &robot.coordinates.v)?;
-    state::check_quaternions(&robot, &start.q)?;
+    start::put(&robot, &mut start, args.q.as_deref(), args.v.as_deref())?;
     let engine = Engine::of(&robot)?;
     let every = args.every.unwrap_or(u64::MAX);
     let plan = Plan {

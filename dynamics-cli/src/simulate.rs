@@ -8,13 +8,14 @@ use dynamics_codegen::symbolic::Graph;
 
 use crate::absence::Absent;
 use crate::failure::{Failure, Problem};
+use crate::limits::Watch;
 use crate::motion::{FixedStep, Mover};
 use crate::output::{failed, writer};
 use crate::picture::{PictureArgs, Recording};
 use crate::progress::Progress;
 use crate::reading::InputArgs;
 use crate::robot::{Robot, State, Wanted};
-use crate::state;
+use crate::start;
 
 /// Simulate a robot that nothing drives, as CSV: time, coordinates, speeds and energies; and draw it
 #[derive(clap::Args)]
@@ -39,11 +40,12 @@ pub(crate) struct Args {
     #[arg(long, value_name = "ERROR", value_parser = tolerance, allow_hyphen_values = true)]
     tolerance: Option<f64>,
 
-    /// Coordinates at the start: all of them, `0.1,-0.2`, or some by their names, `hinge=0.1`; the others are neutral
+    /// Coordinates at the start: all of them, `0.1,-20deg`, or some by their names, `hinge=0.1`; the others are neutral.
+    /// In rad and m, or with their units
     #[arg(long, allow_hyphen_values = true)]
     q: Option<String>,
 
-    /// Speeds at the start: all of them, or some by their names; the others are zero
+    /// Speeds at the start: all of them, or some by their names, `hinge=0.1` or `'hinge=30deg / 1s'`; the others are zero
     #[arg(long, allow_hyphen_values = true)]
     v: Option<String>,
 
@@ -71,7 +73,8 @@ enum Integrator {
 }
 
 const EXAMPLES: &str = "\
-Whatever the method, ball and free joints move on their manifold, so that quaternions stay of unit length.
+Whatever the method, ball and free joints move on their manifold, so that quaternions stay of unit length. Nothing stops
+a joint at its limits; which were passed, when, and how far, is said on standard error.
 
 Columns:
   time                       s
@@ -138,9 +141,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let methods = [&METHODS[..], args.picture.methods()].concat();
     let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
     let mut state = State::neutral(&robot);
-    state::override_by("q", &mut state.q, args.q.as_deref(), &robot.coordinates.q)?;
-    state::override_by("v", &mut state.v, args.v.as_deref(), &robot.coordinates.v)?;
-    state::check_quaternions(&robot, &state.q)?;
+    start::put(&robot, &mut state, args.q.as_deref(), args.v.as_deref())?;
     if let Err(why) = robot.moves(&state) {
         let problem =
             Problem::new(format!("the robot cannot move at its start, q = {:?}: {}", state.q, why.fact()));
@@ -158,6 +159,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let row = |time: f64, state: &State| row(&robot, time, state, start);
     write(&row(0.0, &state)?)?;
     recording.see(0, 0.0, &state)?;
+    let mut watch = Watch::of(&robot, &state);
     let mut mover = match args.method {
         Integrator::Rk4 => Mover::fixed(&robot, state, FixedStep::Rk4),
         Integrator::Euler => Mover::fixed(&robot, state, FixedStep::Euler),
@@ -168,7 +170,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         let (before, now) = (clock.at(k - 1), clock.at(k));
         let lost_at = |(failure, time)| lost(failure, time, args.method);
         let lost = |failure| lost_at((failure, now));
-        mover.advance([before, now], args.time).map_err(lost_at)?;
+        mover.advance([before, now], args.time, |time, q, v| watch.see(time, q, v)).map_err(lost_at)?;
         if k.is_multiple_of(args.every) || k == clock.steps {
             write(&row(now, mover.state()).map_err(|absent| lost(absent.into()))?)?;
         }
@@ -180,6 +182,9 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     drop(progress);
     // What was computed before anything went wrong is written, and drawn.
     out.flush().map_err(|error| failed(args.output.as_deref(), &error))?;
+    if !matches!(done, Err(Failure::PipeClosed)) {
+        watch.tell();
+    }
     recording.write().and(done)
 }
 

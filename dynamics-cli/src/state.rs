@@ -1,4 +1,4 @@
-//! The state that `--state`, `--q` and `--v` give: vectors, or some of their entries by name.
+//! The state that `--state` gives: vectors, or some of their entries by name.
 
 use std::fmt;
 use std::path::Path;
@@ -7,6 +7,7 @@ use dynamics_codegen::diagnostics::did_you_mean;
 use serde::de::{Deserialize, Deserializer, MapAccess, SeqAccess, Visitor};
 use serde_json::Value;
 
+use crate::entry::{Entries, Wrong};
 use crate::failure::{Failure, Problem, Spot};
 use crate::input::{name_of, shown};
 use crate::reading::bytes_of;
@@ -16,18 +17,18 @@ const KEYS: [&str; 4] = ["q", "v", "a", "tau"];
 const EXAMPLE: &str = "write a JSON object, as in '{\"q\": [0.1, 0.2], \"v\": {\"hinge\": 1}}'";
 
 /// The entries of an object, in order: a map would hide that a key is there twice.
-struct Entries<T>(Vec<(String, T)>);
+struct Object<T>(Vec<(String, T)>);
 
-impl<'de, T: Deserialize<'de>> Deserialize<'de> for Entries<T> {
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct OfObject<T>(std::marker::PhantomData<T>);
         impl<'de, T: Deserialize<'de>> Visitor<'de> for OfObject<T> {
-            type Value = Entries<T>;
+            type Value = Object<T>;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
                 f.write_str("an object of vectors")
             }
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Entries<T>, A::Error> {
-                Ok(Entries(entries_of(map)?))
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Object<T>, A::Error> {
+                Ok(Object(entries_of(map)?))
             }
         }
         deserializer.deserialize_map(OfObject(std::marker::PhantomData))
@@ -87,52 +88,46 @@ pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<Sta
         }
         None => ("--state".to_owned(), argument.to_owned()),
     };
-    let Entries(entries) =
-        serde_json::from_str::<Entries<Vector>>(&text).map_err(|error| not_json(&error, name, &text))?;
+    let Object(given) =
+        serde_json::from_str::<Object<Vector>>(&text).map_err(|error| not_json(&error, name, &text))?;
     let mut state = State::neutral(robot);
     let (mut seen, mut wrong): (Vec<&str>, Vec<Problem>) = (vec![], vec![]);
-    for (key, vector) in &entries {
-        let (slot, names) = match key.as_str() {
-            "q" => (&mut state.q, &robot.coordinates.q),
-            "v" => (&mut state.v, &robot.coordinates.v),
-            "a" => (&mut state.a, &robot.coordinates.v),
-            "tau" => (&mut state.tau, &robot.coordinates.v),
-            _ => {
-                wrong.push(unknown_key(key));
-                continue;
-            }
+    for (key, vector) in &given {
+        let slot = match key.as_str() {
+            "q" => &mut state.q,
+            "v" => &mut state.v,
+            "a" => &mut state.a,
+            _ => &mut state.tau,
+        };
+        let Some(entries) = Entries::of(robot, key) else {
+            wrong.push(unknown_key(key));
+            continue;
         };
         if seen.contains(&key.as_str()) {
             wrong.push(Problem::new(format!("the state has `{key}` twice")).help("keep one of the two"));
             continue;
         }
         seen.push(key);
-        let number = |found: &Value, name: &str, wrong: &mut Vec<Problem>| {
-            let number = found.as_f64();
-            if number.is_none() {
-                let found = shown(&found.to_string());
-                let title = format!("`{key}` of `{}` is {found}, and no number", shown(name));
-                wrong.push(Problem::new(title).help(format!("give {}", wanted(names))));
+        let (names, mut put) = (entries.names, |entry: usize, value: &Value| {
+            let number = number(key, value, entry, &entries)?;
+            if let Some(slot) = slot.get_mut(entry) {
+                *slot = number;
             }
-            number
-        };
+            Ok(())
+        });
         match vector {
-            Vector::All(items) => {
-                let mut numbers = vec![];
-                for (k, item) in items.iter().enumerate() {
-                    let name = names.get(k).map_or("one too many", String::as_str);
-                    numbers.extend(number(item, name, &mut wrong));
-                }
-                if numbers.len() == items.len() {
-                    set_all(key, slot, numbers, names, &mut wrong);
-                }
+            Vector::All(items) if items.len() != names.len() => {
+                let (count, needed) = (items.len(), names.len());
+                let s = if count == 1 { "" } else { "s" };
+                let problem = Problem::new(format!("`{key}` has {count} number{s}, and needs {needed}"));
+                wrong.push(problem.help(format!("give {}", wanted(names))));
             }
-            Vector::Some(entries) => {
-                for (name, value) in entries {
-                    if let Some(number) = number(value, name, &mut wrong) {
-                        set(key, slot, name, number, names, &mut wrong);
-                    }
-                }
+            Vector::All(items) => {
+                wrong.extend(items.iter().enumerate().filter_map(|(k, item)| put(k, item).err()));
+            }
+            Vector::Some(given) => {
+                let mut put = |name: &str, value| put(position(key, name, names)?, value);
+                wrong.extend(given.iter().filter_map(|(name, value)| put(name, value).err()));
             }
         }
     }
@@ -143,81 +138,36 @@ pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<Sta
     Err(Failure::Wrong(wrong))
 }
 
-/// Reads a vector as on the command line: `0.1,-0.2`, in brackets or not, or `hinge=-0.2` of some entries.
-pub(crate) fn override_by(
-    key: &str,
-    vector: &mut Vec<f64>,
-    argument: Option<&str>,
-    names: &[String],
-) -> Result<(), Failure> {
-    let Some(argument) = argument else { return Ok(()) };
-    let key = format!("--{key}");
-    let mut wrong = vec![];
-    let number = |word: &str, wrong: &mut Vec<Problem>| {
-        let number = word.trim().parse::<f64>().ok();
-        if number.is_none() {
-            let problem = Problem::new(format!("`{}` in `{key}` is no number", shown(word.trim())));
-            let form = "give {}, with commas between them; or some by their names, as in `{}=0.1`";
-            let first = names.first().map_or("hinge", String::as_str);
-            wrong.push(problem.help(form.replacen("{}", &wanted(names), 1).replacen("{}", first, 1)));
-        }
-        number
+/// The value of an entry: a number, or a text with a unit.
+fn number(key: &str, found: &Value, entry: usize, entries: &Entries<'_>) -> Result<f64, Problem> {
+    let read = match found {
+        // A number in quotes is a mistake of who wrote them.
+        Value::String(text) if text.parse::<f64>().is_err() => entries.number(entry, text, 0),
+        found => found.as_f64().ok_or(Wrong::NoNumber),
     };
-    let inner = argument.trim().trim_start_matches('[').trim_end_matches(']');
-    if inner.contains('=') {
-        for word in inner.split(',') {
-            // Names may have the sign, numbers have not.
-            let (name, value) = word.rsplit_once('=').unwrap_or(("", word));
-            if let Some(number) = number(value, &mut wrong) {
-                set(&key, vector, name.trim(), number, names, &mut wrong);
-            }
+    read.map_err(|wrong| match wrong {
+        Wrong::NoNumber => {
+            let name = entries.names.get(entry).map_or("", String::as_str);
+            let found = shown(&found.to_string());
+            let title = format!("`{key}` of `{}` is {found}, and no number", shown(name));
+            Problem::new(title).help(format!("give {}", wanted(entries.names)))
         }
-    } else {
-        let mut numbers = vec![];
-        for word in inner.split(',') {
-            numbers.extend(number(word, &mut wrong));
+        Wrong::Of(found) => {
+            let problem = Problem::new(found.message.clone()).help(found.help_text());
+            Problem { code: Some(found.code.to_string()), ..problem }
         }
-        if wrong.is_empty() {
-            set_all(&key, vector, numbers, names, &mut wrong);
-        }
-    }
-    if wrong.is_empty() { Ok(()) } else { Err(Failure::Wrong(wrong)) }
+    })
 }
 
-/// Sets the entry of a name.
-fn set(key: &str, vector: &mut [f64], name: &str, value: f64, names: &[String], wrong: &mut Vec<Problem>) {
-    let slot = names.iter().position(|known| known == name).and_then(|at| vector.get_mut(at));
-    let Some(slot) = slot else {
+/// The index of an entry, by its name.
+pub(crate) fn position(key: &str, name: &str, names: &[String]) -> Result<usize, Problem> {
+    names.iter().position(|known| known == name).ok_or_else(|| {
         let problem = Problem::new(format!("`{key}` has no entry `{}`", shown(name)));
-        let help = match did_you_mean(name, names.iter().map(String::as_str)) {
+        problem.help(match did_you_mean(name, names.iter().map(String::as_str)) {
             Some(meant) => format!("did you mean `{meant}`?"),
             None => format!("give {}", wanted(names)),
-        };
-        wrong.push(problem.help(help));
-        return;
-    };
-    if value.is_finite() {
-        *slot = value;
-    } else {
-        let problem = Problem::new(format!("`{key}` of `{}` is {value}", shown(name)));
-        wrong.push(problem.help("give a finite number"));
-    }
-}
-
-/// Sets all entries: as many numbers as there are names, and all finite.
-fn set_all(key: &str, vector: &mut Vec<f64>, numbers: Vec<f64>, names: &[String], wrong: &mut Vec<Problem>) {
-    let (count, needed) = (numbers.len(), names.len());
-    let mut is_wrong =
-        |title: String| wrong.push(Problem::new(title).help(format!("give {}", wanted(names))));
-    if count != needed {
-        let s = if count == 1 { "" } else { "s" };
-        is_wrong(format!("`{key}` has {count} number{s}, and needs {needed}"));
-        return;
-    }
-    for (number, name) in numbers.iter().zip(names).filter(|(number, _)| !number.is_finite()) {
-        is_wrong(format!("`{key}` of `{name}` is {number}"));
-    }
-    *vector = numbers;
+        })
+    })
 }
 
 /// How far the square of a quaternion's length may be from 1: that of the run time.
@@ -257,7 +207,7 @@ fn unknown_key(key: &str) -> Problem {
 }
 
 /// As in "2 finite numbers, of slider, hinge".
-fn wanted(names: &[String]) -> String {
+pub(crate) fn wanted(names: &[String]) -> String {
     const SHOWN: usize = 19; // a quadruped's
     let count = names.len();
     let shown = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");

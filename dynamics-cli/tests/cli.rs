@@ -85,6 +85,13 @@ impl Done {
         self.stdout
     }
 
+    /// The output of a simulation of which there is nothing to say but that joints passed their limits.
+    fn unstopped(self) -> String {
+        let said = self.stderr.lines().all(|line| line.ends_with(": a simulation has no stops"));
+        assert!(self.code == 0 && said, "{}", self.stderr);
+        self.stdout
+    }
+
     /// The complaint of a command that printed nothing else, and did not fall over.
     fn failed(self, code: i32) -> String {
         let Self { stdout, stderr, .. } = self;

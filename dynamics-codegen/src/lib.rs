@@ -214,6 +214,7 @@ pub fn generate_urdf(name: &str, urdf: Urdf<'_>, attributes: &str) -> Result<Str
 ///
 /// All mistakes of the first phase that found any.
 pub fn generate_rust(spec: &RobotSpec) -> Result<String, Diagnostics> {
+    check_types(spec)?;
     let graph = Graph::new();
     let (model, compiled) = checked(spec, &graph, RunTime::Core)?;
     let item = emit::rust::Item::of(spec, &model);
@@ -299,6 +300,17 @@ pub fn judged<'g>(spec: &RobotSpec, graph: &'g Graph) -> Result<model::Model<'g>
     Ok(model)
 }
 
+/// Bodies are types in Rust, and nowhere else. What else is wrong is said with those that cannot be.
+fn check_types(spec: &RobotSpec) -> Result<(), Diagnostics> {
+    let mut diags = Diagnostics::new();
+    model::names::check_types(spec, &mut diags);
+    if !diags.is_empty() {
+        let others = judged(spec, &Graph::new()).err();
+        others.into_iter().flat_map(|mut others| others.take()).for_each(|other| diags.push(other));
+    }
+    diags.check()
+}
+
 /// What cannot be seen in a formula: points that are always one, and what is always zero.
 fn check_terms(spec: &RobotSpec, model: &model::Model<'_>, graph: &Graph, diags: &mut Diagnostics) {
     use mechanics::plain::Flaw;
@@ -355,7 +367,7 @@ fn check_motions(spec: &spec::RobotSpec, model: &model::Model<'_>, graph: &Graph
     });
 }
 
-/// A recursion over a table of links has no terms.
+/// What would be a recursion over a table of links, or calls one, which has no terms.
 fn check_lengths(spec: &RobotSpec, methods: &[mechanics::equations::Method], diags: &mut Diagnostics) {
     if let (false, Some(term)) = (methods.is_empty(), spec.terms.first()) {
         let names: Vec<_> = methods.iter().map(|method| format!("`{}`", method.name())).collect();

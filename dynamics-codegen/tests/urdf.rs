@@ -53,6 +53,7 @@ fn read(text: &str, options: &str) -> (RobotSpec, Report) {
 fn mistakes_in(text: &str, options: &str) -> Vec<Diagnostic> {
     let judged = |spec: &RobotSpec| {
         let mut diags = Diagnostics::new();
+        model::names::check_types(spec, &mut diags);
         let _ = model::build(spec, &symbolic::Graph::new(), &mut diags);
         diags
     };

@@ -8,7 +8,8 @@ use dynamics_view::page::{Handle, HandleKind, Section, Stage};
 use dynamics_view::{Body, Drive, Linkage, Measure, Mount};
 
 use super::Subject;
-use super::swing::{Swing, limits};
+use super::swing::Swing;
+use crate::limits::limits;
 use crate::picture::charts::parts;
 use crate::picture::scene;
 use crate::robot::{Robot, State};

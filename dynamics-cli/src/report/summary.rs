@@ -2,9 +2,11 @@
 
 use std::path::Path;
 
+use dynamics_codegen::mechanics::equations::Method;
 use dynamics_view::page::Page;
 
 use super::{Subject, stage};
+use crate::absence::Absence;
 use crate::check;
 
 /// The page with a sentence or two below its title.
@@ -22,7 +24,9 @@ pub(super) fn put(page: Page, subject: &Subject<'_, '_>) -> Page {
     };
     let flags = subject.input.flags();
     let beside = if flags.is_empty() { String::new() } else { format!(" with `{}`", flags.trim_start()) };
-    let (parameters, file) = (check::parameters(robot), file(subject));
+    let why = || Absence::of_method(Method::Regressor, robot).fact();
+    let parameters = check::parameters(robot).unwrap_or_else(|| format!("no regressor, since {}", why()));
+    let file = file(subject);
     let second = match has_bodies {
         true => format!(
             "It weighs {}; {}; {parameters}. Read from `{file}`{beside}.",

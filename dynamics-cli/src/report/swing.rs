@@ -8,12 +8,13 @@ use super::equations::{listed, passive};
 use super::{Subject, stage};
 use crate::absence::Absent;
 use crate::failure::Failure;
+use crate::limits::limits;
 use crate::motion::{FixedStep, Mover};
 use crate::picture::charts::{self, Wish, parts};
 use crate::picture::{Moment, thinned};
 use crate::robot::{Robot, State};
 use crate::simulate::{Clock, energies};
-use crate::state;
+use crate::start;
 
 /// How far each joint that turns is from neutral where nothing else is said, rad.
 const OFF: f64 = 0.3;
@@ -64,19 +65,8 @@ pub(super) fn start(robot: &Robot<'_>, q: Option<&str>, v: Option<&str>) -> Resu
             start.v[from..from + 3].fill(SPIN);
         }
     }
-    state::override_by("q", &mut start.q, q, &robot.coordinates.q)?;
-    state::override_by("v", &mut start.v, v, &robot.coordinates.v)?;
-    state::check_quaternions(robot, &start.q)?;
+    start::put(robot, &mut start, q, v)?;
     Ok(start)
-}
-
-/// The limits of a coordinate of one number; infinite where there are none. Files in which nobody knew them have 0 and 0:
-/// an interval that has no inside is no limit.
-pub(super) fn limits(robot: &Robot<'_>, q: usize, v: usize) -> [f64; 2] {
-    let joint = robot.model.joints.iter().find(|joint| joint.q.contains(&q));
-    let limits = joint.and_then(|joint| joint.limits.get(v - joint.v.start));
-    let limits = limits.filter(|limits| limits.lower < limits.upper);
-    limits.map_or([f64::NEG_INFINITY, f64::INFINITY], |limits| [limits.lower, limits.upper])
 }
 
 impl Swing {
@@ -95,7 +85,7 @@ impl Swing {
         let mut mover = Mover::fixed(robot, start, FixedStep::Rk4);
         for k in 1..=clock.steps {
             let (before, now) = (clock.at(k - 1), clock.at(k));
-            let moved = mover.advance([before, now], time).map_err(|(failure, _)| failure);
+            let moved = mover.advance([before, now], time, |_, _, _| {}).map_err(|(failure, _)| failure);
             let seen = match moved.and_then(|()| Ok(moment(robot, now, mover.state())?)) {
                 Ok(seen) => seen,
                 Err(Failure::Wrong(problems)) => {

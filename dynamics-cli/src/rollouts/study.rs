@@ -1,7 +1,6 @@
 //! What varies from one rollout to the next, and its value in each: a number of the seed and of the rollout alone.
 
 use dynamics_codegen::diagnostics::did_you_mean;
-use dynamics_codegen::model::Motion;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::SeedableRng;
 use rand_distr::{Distribution as _, StandardNormal, StandardUniform};
@@ -174,42 +173,15 @@ fn target(robot: &Robot<'_>, given: &Given) -> Result<(Target, Option<Exponents>
         return Err(unknown(format!("there is no {what} `{}`", shown(rest)), names, help));
     };
     if prefix == 'v' {
-        return Ok((Target::Speed(at), speed_unit(robot, at)));
+        return Ok((Target::Speed(at), Some(robot.coordinates.units_of_v[at])));
     }
-    match coordinate_unit(robot, at) {
+    match robot.coordinates.units_of_q[at] {
         Some(unit) => Ok((Target::Coordinate(at), Some(unit))),
         None => Err(given.assignment.wrong_name(
             format!("`{name}` is a part of a quaternion, which cannot vary alone"),
             "give the orientation at the start by `--q`, and vary positions and speeds".to_owned(),
         )),
     }
-}
-
-/// The unit of a coordinate; none of a quaternion's.
-fn coordinate_unit(robot: &Robot<'_>, at: usize) -> Option<Exponents> {
-    let link = robot
-        .tree
-        .links
-        .iter()
-        .find(|link| (link.drive.q..link.drive.q + link.motion.coordinates()).contains(&at))?;
-    match (link.motion, at - link.drive.q) {
-        (Motion::Revolute, _) => Some([0; 3]),
-        (Motion::Prismatic, _) | (Motion::Free, 0..3) => Some([0, 1, 0]),
-        (Motion::Ball | Motion::Free, _) => None,
-    }
-}
-
-/// The unit of a speed.
-fn speed_unit(robot: &Robot<'_>, at: usize) -> Option<Exponents> {
-    let link = robot
-        .tree
-        .links
-        .iter()
-        .find(|link| (link.drive.v..link.drive.v + link.motion.speeds()).contains(&at))?;
-    Some(match (link.motion, at - link.drive.v) {
-        (Motion::Prismatic, _) | (Motion::Free, 0..3) => [0, 1, -1],
-        (Motion::Revolute | Motion::Ball | Motion::Free, _) => [0, 0, -1],
-    })
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use serde_json::Value;
 
-use super::{Done, dynamics, folder, model};
+use super::{Done, dynamics, dynamics_on, folder, model};
 
 /// A top by Euler's angles, which no number can say of it when it stands upright; one in polar coordinates; and terms that
 /// are not smooth where points meet.
@@ -194,4 +194,143 @@ fn a_motion_that_is_lost_is_drawn_to_its_end() {
     assert!(expected.iter().all(|text| complaint.contains(text)), "{complaint}");
     assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
     assert!(std::fs::read_to_string(&csv).unwrap().lines().count() > 10);
+}
+
+/// A chain of so many links, none like another.
+fn chain(links: usize) -> String {
+    let link = |k: usize| {
+        format!(
+            r#"<link name="l{k}"><inertial><origin xyz="0.1 0.2 0.{k}"/><mass value="{k}"/>
+            <inertia ixx="9" ixy="0" ixz="0" iyy="9" iyz="0" izz="9"/></inertial></link>
+            <joint name="j{k}" type="continuous"><parent link="l{}"/><child link="l{k}"/>
+            <origin xyz="0.3 0.1 0" rpy="0.3 0.2 0.{k}"/><axis xyz="0 0 1"/></joint>"#,
+            k - 1
+        )
+    };
+    format!(r#"<robot name="chain"><link name="l0"/>{}</robot>"#, (1..=links).map(link).collect::<String>())
+}
+
+/// The lines of `check` on what is absent.
+fn absent(text: &str) -> Vec<&str> {
+    let section = text.split("\nabsent\n").nth(1).unwrap_or_default();
+    section.lines().take_while(|line| !line.is_empty()).collect()
+}
+
+/// What `check` says that a robot does not get is not in its code, and all else is.
+#[test]
+fn methods_that_a_robot_does_not_get_are_named_with_the_reason() {
+    let massless = ["total_mass", "center_of_mass", "center_of_mass_jacobian", "centroidal_momentum"];
+    let regressors = ["regressor", "inertial_parameters", "base_regressor", "base_parameters"];
+    let generate = ["generate", "--lang", "rust", "--name", "Chain", "-"];
+    let long = chain(30);
+    let on_chain = |command: &[&str]| dynamics_on(long.as_bytes(), command).ok();
+    for (checked, code, expected) in [
+        (on("Root", &["check"]).ok(), on("Root", &["generate", "--lang", "rust"]).ok(), &massless[..]),
+        (on_chain(&["check", "-"]), on_chain(&generate), &regressors),
+        (on("Top", &["check"]).ok(), on("Top", &["generate", "--lang", "rust"]).ok(), &[]),
+    ] {
+        let lines = absent(&checked).join("\n");
+        for method in [&massless[..], &regressors, &["mass_matrix", "forward_dynamics"]].concat() {
+            let is_absent = expected.contains(&method);
+            assert_eq!(lines.contains(&format!("`{method}`")), is_absent, "{method}: {lines}");
+            assert_eq!(code.contains(&format!("fn {method}(")), !is_absent, "{method}");
+        }
+    }
+    let root = on("Root", &["check"]).ok();
+    assert!(
+        absent(&root).len() == 1 && absent(&root)[0].ends_with(": no body that moves has mass"),
+        "{root}"
+    );
+    // As `eval` says it.
+    let why = absent(&on_chain(&["check", "-"])).concat();
+    let (_, why) = why.split_once(": ").unwrap();
+    let complaint = dynamics_on(long.as_bytes(), &["eval", "-", "--only", "Y"]).stderr;
+    assert!(complaint.contains(why), "{complaint} has no {why:?}");
+}
+
+/// Terms have no loops. A file is told which methods that takes from it; a struct must leave these out, as for the derive.
+#[test]
+fn what_terms_take_from_a_long_robot_is_named() {
+    let term = "--potential=3Nm * j1^2";
+    let checked = dynamics_on(chain(34).as_bytes(), &["check", "-", term]).ok();
+    let line = absent(&checked)[0];
+    let (methods, why) = line.split_once(": ").unwrap();
+    assert_eq!(why, "the program would be too long: with terms in the energies it is written without loops");
+    let names: Vec<&str> = methods.split('`').skip(1).step_by(2).collect();
+    assert!(
+        names.contains(&"inverse_dynamics_derivatives") && names.contains(&"forward_dynamics_derivatives"),
+        "{line}"
+    );
+    let evaluated = |only: &[&str]| dynamics_on(chain(34).as_bytes(), &[&["eval", "-", term], only].concat());
+    let (values, complaint) = partly(evaluated(&["--only", "M,dtau_dq"]));
+    assert!(values["M"].is_array() && values["dtau_dq"].is_null() && complaint.contains(why), "{complaint}");
+    evaluated(&["--only", "C,tau,a"]).ok();
+    // Each of them is refused, and the others are not.
+    let generate = |outputs: &str| {
+        let options = ["generate", "-", "--lang", "rust", term, "--outputs", outputs];
+        dynamics_on(chain(34).as_bytes(), &options)
+    };
+    for name in names {
+        assert!(generate(name).failed(1).contains(&format!("`{name}`")));
+    }
+    let others = "mass_matrix,inverse_dynamics,forward_dynamics,inverse_mass_matrix";
+    generate(others).ok();
+
+    let here = folder("absent_long");
+    std::fs::write(here.join("Cargo.toml"), "").unwrap();
+    std::fs::write(here.join("chain.urdf"), chain(34)).unwrap();
+    let file = here.join("robot.rs");
+    let written = |outputs: &str| {
+        let text = format!(
+            "#[derive(Dynamics)] #[dynamics(urdf = \"chain.urdf\"{outputs})]\n\
+             #[potential(3Nm * j1^2)]\nstruct Chain;\n"
+        );
+        std::fs::write(&file, text).unwrap();
+        dynamics(&["check", file.to_str().unwrap()])
+    };
+    assert_eq!(absent(&written(&format!(", outputs({others})")).ok())[0], line);
+    let complaint = written("").failed(1);
+    assert!(
+        complaint.contains("TermsUnsupported") && complaint.contains("`inverse_dynamics_derivatives`"),
+        "{complaint}"
+    );
+}
+
+/// Two links that differ, but not as types of Rust.
+const ALIKE: &str = r#"<robot name="alike"><link name="base"/>
+  <link name="arm_1"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="Arm1"><inertial><mass value="2"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="one" type="continuous"><parent link="base"/><child link="arm_1"/><axis xyz="1 0 0"/></joint>
+  <joint name="two" type="prismatic"><parent link="arm_1"/><child link="Arm1"/><axis xyz="0 1 0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint></robot>"#;
+
+/// Where no Rust is written, nothing keeps a robot from having them.
+#[test]
+fn links_that_are_one_type_are_refused_in_rust_alone() {
+    let on = |command: &[&str]| dynamics_on(ALIKE.as_bytes(), command);
+    let why = "the bodies `arm_1` and `Arm1` would both be the type `Arm1`";
+    let checked = on(&["check", "-"]).ok();
+    assert_eq!(absent(&checked), [format!("  code in Rust: {why}")], "{checked}");
+    assert!(on(&["generate", "-", "--lang", "rust"]).failed(1).contains(why));
+
+    let here = folder("alike");
+    on(&["generate", "-", "--lang", "c", "--outputs", "pose", "-o", here.to_str().unwrap()]).ok();
+    let header = std::fs::read_to_string(here.join("alike.h")).unwrap();
+    assert!(header.contains("alike_arm_1_pose") && header.contains("alike_arm1_pose"), "{header}");
+
+    let state = r#"{"q": [0, 0.5]}"#;
+    let values = on(&["eval", "-", "--only", "mass", "--frame", "*", "--state", state]).ok();
+    let values: Value = serde_json::from_str(&values).unwrap();
+    let place = |frame: &str| values["frames"][frame]["translation"][1].as_f64().unwrap();
+    assert_eq!((place("arm_1"), place("Arm1"), values["mass"].as_f64()), (0.0, 0.5, Some(3.0)));
+
+    // A struct is Rust.
+    std::fs::write(here.join("Cargo.toml"), "").unwrap();
+    std::fs::write(here.join("alike.urdf"), ALIKE).unwrap();
+    let file = here.join("robot.rs");
+    std::fs::write(&file, "#[derive(Dynamics)] #[dynamics(urdf = \"alike.urdf\")]\nstruct Alike;\n").unwrap();
+    let complaint = dynamics(&["check", file.to_str().unwrap()]).failed(1);
+    assert!(complaint.contains(why) && complaint.contains("alike.urdf:4:"), "{complaint}");
 }

@@ -145,6 +145,33 @@ fn a_wrong_state_names_the_joints() {
     }
 }
 
+/// Each at its place, of both options at once.
+#[test]
+fn units_of_a_start_are_those_of_its_joints() {
+    let simulate = ["simulate", &model("cartpole"), "--time", "1", "--step", "0.1"];
+    let of = |options: &[&str]| dynamics(&[&simulate[..], options].concat()).failed(1);
+    let wrong = ["--q", "slider=90deg, hinge=3kg", "--v", "[90deg, 2 parsec]"];
+    insta::assert_snapshot!(of(&wrong));
+    let hyq = ["simulate", &model("hyq"), "--base", "free", "--time", "1", "--step", "0.1"];
+    let complaint = dynamics(&[&hyq[..], &["--q", "root_joint.qx=30deg"]].concat()).failed(1);
+    assert!(complaint.contains("`root_joint.qx`, a part of a quaternion, has none"), "{complaint}");
+
+    let state = |state: &str| dynamics(&["eval", &model("cartpole"), "--only", "tau,a", "--state", state]);
+    let units =
+        r#"{"q": {"slider": "-20cm"}, "v": ["1m/2s", "pi / 1s"], "a": ["1m/1s^2", 2], "tau": ["3N", "2Nm"]}"#;
+    let plain = r#"{"q": [-0.2, 0], "v": [0.5, 3.141592653589793], "a": [1, 2], "tau": [3, 2]}"#;
+    assert_eq!(state(units).ok(), state(plain).ok());
+    for (given, expected) in [
+        (r#"{"q": ["3deg", 0]}"#, "`3deg` has the unit rad, and `slider` m"),
+        (r#"{"a": {"hinge": "2deg / 1s"}}"#, "give a rate, `2deg / 1s / 1s`, or a number, which is in 1/s^2"),
+        (r#"{"tau": {"hinge": "2N"}}"#, "`2N` has the unit kg·m/s^2, and `hinge` kg·m^2/s^2"),
+        (r#"{"tau": {"hinge": "2 N"}}"#, "`tau` of `hinge` is \"2 N\", and no number"),
+    ] {
+        let complaint = state(given).failed(1);
+        assert!(complaint.contains(expected), "{given}: {complaint}");
+    }
+}
+
 #[test]
 fn a_wrong_state_of_a_free_base_says_which_part() {
     for (state, expected) in [

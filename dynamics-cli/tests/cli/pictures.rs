@@ -18,7 +18,7 @@ fn a_swing_is_drawn() {
     let pictures = ["--plot", &svg, "--animate", &html, "--trace", "pole"];
     let drawn = || {
         let all = [&arguments[..], &pictures, &["--plot-of", "angles,energy,phase:hinge,poles"]].concat();
-        assert_eq!(dynamics(&all).ok(), "");
+        assert_eq!(dynamics(&all).unstopped(), "");
         [&svg, &html].map(|file| std::fs::read_to_string(file).unwrap())
     };
     let [chart, page] = drawn();
@@ -59,7 +59,7 @@ fn a_free_body_has_a_position_and_an_orientation() {
     let arguments =
         ["simulate", &model("hyq"), "--base", "free", "--time", "0.4", "--step", "0.02", "--plot", &svg];
     let drawn = |v: &str| {
-        dynamics(&[&arguments[..], &["--v", v]].concat()).ok();
+        dynamics(&[&arguments[..], &["--v", v]].concat()).unstopped();
         std::fs::read_to_string(&svg).unwrap()
     };
     let level = drawn("root_joint.wx=0.5");

@@ -45,7 +45,10 @@ fn the_commands_of_the_readme_run() {
         assert_eq!(words[0], "dynamics", "{line}");
         let mut command = Command::new(env!("CARGO_BIN_EXE_dynamics"));
         let done = Done::of(command.args(&words[1..]).current_dir(&here).output().unwrap());
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{line}");
+        match words[1].as_str() {
+            "simulate" => done.unstopped(),
+            _ => done.ok(),
+        };
         commands += 1;
     }
     assert!(commands >= 8 && here.join("swing.csv").exists() && here.join("iiwa14.rs").exists());

@@ -90,7 +90,7 @@ fn a_free_body_rolls_out_as_it_is_simulated() {
         table(&dynamics(&[&options[..], &common].concat()).ok()).1.pop().unwrap()
     };
     let alone = ["simulate", &hyq, "--step", "1e-3", "--v", "root_joint.wz=2", "--every", "20"];
-    let alone = table(&dynamics(&[&alone[..], &common].concat()).ok()).1.pop().unwrap();
+    let alone = table(&dynamics(&[&alone[..], &common].concat()).unstopped()).1.pop().unwrap();
     let error = |row: &[f64]| {
         row[2..39].iter().zip(&alone[1..38]).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
     };
@@ -271,4 +271,37 @@ fn mistakes_are_shown_where_they_are() {
     let over = over.to_str().unwrap();
     let complaint = dynamics(&["rollouts", over, "--time", "1", "--step", "1", "-o", over]).failed(1);
     assert!(complaint.contains("it is the input"), "{complaint}");
+}
+
+/// A slider that follows the hinge behind it does not make its angle a length.
+#[test]
+fn a_coordinate_has_the_unit_of_its_joint() {
+    let cart = model("cartpole");
+    let follower = ["--joint", "slider, mimic = hinge, ratio = 0.1m"];
+    let rolled = |value: &str| {
+        let arguments = ["rollouts", &cart, "--time", "0", "--step", "1", "--vary", value];
+        dynamics(&[&arguments[..], &follower].concat())
+    };
+    let (_, rows) = table(rolled("q.hinge = 30deg").ok().leak());
+    assert!((rows[0][2] - std::f64::consts::FRAC_PI_6).abs() < 1e-15, "{rows:?}");
+    assert!(rolled("q.hinge = 30mm").failed(1).contains("`30mm` has the unit m, and `q.hinge` rad"));
+    let here = folder("unit_of_a_leader");
+    let generate = [
+        "generate",
+        &cart,
+        "--lang",
+        "c",
+        "--name",
+        "cart",
+        "--outputs",
+        "mass_matrix",
+        "-o",
+        here.to_str().unwrap(),
+    ];
+    dynamics(&[&generate[..], &follower].concat()).ok();
+    let header = std::fs::read_to_string(here.join("cart.h")).unwrap();
+    assert!(
+        header.contains("q[0]  hinge, rad, ") && header.contains("v[0]  hinge, rad/s, N m, "),
+        "{header}"
+    );
 }

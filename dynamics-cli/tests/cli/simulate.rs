@@ -10,7 +10,7 @@ fn rows(csv: &str) -> Vec<Vec<f64>> {
 #[test]
 fn a_swinging_pole_keeps_its_energy() {
     let arguments = ["simulate", &model("cartpole"), "--time", "2", "--step", "1e-3", "--q", "0,1"];
-    let csv = dynamics(&[&arguments[..], &["--every", "100"]].concat()).ok();
+    let csv = dynamics(&[&arguments[..], &["--every", "100"]].concat()).unstopped();
     let head = csv.lines().next().unwrap();
     assert_eq!(head, "time,q.slider,q.hinge,v.slider,v.hinge,kinetic,potential,elastic,total,drift");
     let rows = rows(&csv);
@@ -28,7 +28,7 @@ fn a_swinging_pole_keeps_its_energy() {
 #[test]
 fn the_last_step_ends_with_the_time() {
     let arguments = ["simulate", &model("scara"), "--time", "0.25", "--step", "0.1", "--every", "2"];
-    let times: Vec<f64> = rows(&dynamics(&arguments).ok()).iter().map(|row| row[0]).collect();
+    let times: Vec<f64> = rows(&dynamics(&arguments).unstopped()).iter().map(|row| row[0]).collect();
     assert_eq!(times, [0.0, 0.2, 0.25]);
     let arguments = ["simulate", &model("scara"), "--time", "0", "--step", "1", "--v", "-1,2,0,0"];
     assert_eq!(rows(&dynamics(&arguments).ok()).len(), 1);
@@ -118,7 +118,7 @@ fn a_tumbling_brick_is_followed_to_the_fourth_order() {
 fn swung(step: &str, method: &[&str]) -> [f64; 2] {
     let cart = model("cartpole");
     let arguments = ["simulate", &cart, "--time", "1", "--step", step, "--q", "0,1", "--every", "1000000"];
-    let rows = rows(&dynamics(&[&arguments[..], method].concat()).ok());
+    let rows = rows(&dynamics(&[&arguments[..], method].concat()).unstopped());
     assert_eq!(rows.len(), 2);
     [rows[1][2], rows[1][4]]
 }
@@ -176,4 +176,111 @@ fn springs_and_dampers_of_options_act() {
         assert!((row[1] - expected).abs() < 1e-7, "{row:?}");
         assert!((row[5] - 0.5 * k * row[1] * row[1]).abs() < 1e-12 && row[7] <= 0.0, "{row:?}");
     }
+}
+
+/// What attributes accept for a number, a start accepts; plain numbers are in SI units.
+#[test]
+fn a_start_may_have_units() {
+    use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, FRAC_PI_6};
+    let cart = model("cartpole");
+    let begun = |options: &[&str]| {
+        let arguments = ["simulate", &cart, "--time", "0", "--step", "1"];
+        rows(&dynamics(&[&arguments[..], options].concat()).ok()).remove(0)[1..5].to_vec()
+    };
+    for (options, expected) in [
+        (&["--q", "-0.5,0.25", "--v", "1e-1,.5"][..], [-0.5, 0.25, 0.1, 0.5]),
+        (&["--q", "300mm, 90deg"], [0.3, FRAC_PI_2, 0.0, 0.0]),
+        (&["--q", "[-0.5, -pi / 4]"], [-0.5, -FRAC_PI_4, 0.0, 0.0]),
+        (&["--q", "hinge = 0.25rad", "--v", "slider=20cm/1s, hinge=30deg / 1s"], [0.0, 0.25, 0.2, FRAC_PI_6]),
+        (&["--v", "0m / 1s, -60deg / 2s"], [0.0, 0.0, 0.0, -FRAC_PI_6]),
+    ] {
+        let found = begun(options);
+        for (found, expected) in found.iter().zip(expected) {
+            // The nearest double, but for the rounding of a product.
+            assert!((found - expected).abs() <= f64::EPSILON * expected.abs(), "{options:?}: {found}");
+        }
+    }
+}
+
+/// A stone that is thrown up along a pole, and comes down again: `x = v·t − g·t²/2`.
+const STONE: &str = r#"<robot name="stone"><link name="pole"/>
+  <link name="stone"><inertial><mass value="2"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="slide" type="prismatic"><parent link="pole"/><child link="stone"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="0.3" effort="1" velocity="1"/></joint></robot>"#;
+
+/// The numbers of a note, in order.
+fn numbers(note: &str) -> Vec<f64> {
+    note.split([' ', ',']).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// When a limit was passed and how far is that of the parabola, though no step ends beyond the limit.
+#[test]
+fn who_passes_a_limit_and_comes_back_is_named() {
+    let (v, g, upper, time) = (3.0_f64, 9.81_f64, 0.3, 0.55);
+    assert!(v * time - 0.5 * g * time * time < upper);
+    let expected = [upper, (v - (v * v - 2.0 * g * upper).sqrt()) / g, v * v / (2.0 * g)];
+    for options in [&["--method", "rk4"][..], &["--method", "adaptive"]] {
+        let arguments = ["simulate", "-", "--time", "0.55", "--step", "0.55", "--v", "3"];
+        let arguments = [&arguments[..], options].concat();
+        let done = dynamics_on(STONE.as_bytes(), &arguments);
+        let note = done.stderr.as_str();
+        assert!(
+            note.starts_with("`slide` passes its upper limit of 0.3 m after ") && note.lines().count() == 1
+        );
+        for (found, expected) in numbers(note).into_iter().zip(expected) {
+            // Notes have six digits.
+            assert!((found - expected).abs() < 1e-5 * expected, "{note}: {expected}");
+        }
+        assert_eq!(numbers(note).len(), expected.len());
+        // What a program reads is what it would be without limits.
+        let free = STONE.replace("0.3", "9");
+        assert_eq!(done.unstopped(), dynamics_on(free.as_bytes(), &arguments).ok());
+    }
+}
+
+/// Two wheels that nothing turns, each at its speed.
+const WHEELS: &str = r#"<robot name="wheels"><link name="base"/>
+  <link name="a"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="b"><inertial><mass value="1"/>
+    <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <joint name="one" type="revolute"><parent link="base"/><child link="a"/><axis xyz="0 0 1"/>
+    <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="other" type="revolute"><parent link="base"/><child link="b"/><axis xyz="0 0 1"/>
+    <limit lower="-0.5" upper="0.5" effort="1" velocity="1"/></joint></robot>"#;
+
+#[test]
+fn limits_are_named_once_each_in_the_order_of_time() {
+    let said = |options: &[&str]| {
+        let arguments = ["simulate", "-", "--time", "4", "--step", "0.3"];
+        let done = dynamics_on(WHEELS.as_bytes(), &[&arguments[..], options].concat());
+        let said = done.stderr.clone();
+        done.unstopped();
+        said
+    };
+    let of = |v, q| said(&["--v", v, "--q", q]);
+    assert_eq!(
+        of("1,-1", "0,0"),
+        "`other` passes its lower limit of -0.5 rad after 0.5 s, and comes to -4 rad: a simulation has no stops\n\
+         `one` passes its upper limit of 2 rad after 2 s, and comes to 4 rad: a simulation has no stops\n"
+    );
+    // From beyond one limit through the other.
+    let back =
+        "`one` begins beyond its upper limit of 2 rad, and comes to 2.5 rad: a simulation has no stops\n";
+    assert_eq!(of("-2,0", "2.5,0.5"), back);
+    // On them, and of a bit beyond them.
+    assert_eq!(of("0,0", "2,-0.5"), "");
+    let bit = "`other` begins beyond its upper limit of 0.5 rad, and comes to 0.5000000000000001 rad: a simulation has no stops\n";
+    assert_eq!(of("0,0", "0,0.5000000000000001"), bit);
+}
+
+/// What happened before a motion was lost is said before that.
+#[test]
+fn limits_passed_by_a_lost_motion_are_named() {
+    let arguments = ["simulate", &model("cartpole"), "--time", "300", "--step", "100", "--v", "1,1"];
+    let done = dynamics(&arguments);
+    let mut lines = done.stderr.lines();
+    assert!(lines.next().unwrap().starts_with("`slider` passes its "), "{}", done.stderr);
+    assert!(done.code == 1 && lines.any(|line| line.starts_with("error: ")), "{}", done.stderr);
 }

@@ -57,7 +57,7 @@ fn energy_stays_with_a_spring_and_goes_with_a_damper() {
     let arguments =
         ["simulate", &model("cartpole"), "--time", "1", "--step", "1e-3", "--q", "0.2,1", "--every", "1000"];
     let drift = |options: &[&str]| -> f64 {
-        let csv = dynamics(&[&arguments[..], options].concat()).ok();
+        let csv = dynamics(&[&arguments[..], options].concat()).unstopped();
         csv.trim_end().rsplit(',').next().unwrap().parse().unwrap()
     };
     assert!(drift(&["--potential", SPRING]).abs() < 1e-9);

@@ -78,15 +78,15 @@ catalogue! {
     // Names
     /// The name was given before.
     NameDuplicate => "give each joint, each coordinate and each body a name of its own",
-    /// Two bodies become the same Rust type.
+    /// Two bodies become the same type of Rust, where Rust is written.
     NamesCollide => "choose names that differ in more than case and underscores",
     /// The name cannot be used.
     ///
     /// `pi`, `PI` and `π` are the number π in every formula: no field and no joint that a formula could mean has such a
     /// name. `sin`, `cos`, `sqrt`, and of terms `dot`, `distance`, `x`, `y` and `z`, are functions where a parenthesis
-    /// follows, and free elsewhere. `world` is where every robot stands, and is no body. A body becomes a type of Rust, so
-    /// that its name needs a letter. In files no name is empty, longer than 256 characters, or has characters that cannot be
-    /// seen.
+    /// follows, and free elsewhere. `world` is where every robot stands, and is no body. Where Rust is written, a body becomes
+    /// a type, so that its name needs a letter. In files no name is empty, longer than 256 characters, or has characters that
+    /// cannot be seen.
     NameReserved => "choose another name",
     // Topology
     /// There is no joint.

@@ -1,5 +1,11 @@
 //! How names of joints and bodies become Rust identifiers.
 
+use rustc_hash::FxHashMap;
+
+use super::topology::WORLD;
+use crate::diagnostics::{Code, Diagnostics};
+use crate::spec::{Name, RobotSpec};
+
 /// `left_arm2`, `LeftArm2`, `leftArm2` → `LeftArm2`
 pub fn upper_camel_case(name: &str) -> String {
     let capitalised = |word: String| {
@@ -48,6 +54,36 @@ pub fn frame_type(frame: &str, robot: &str) -> String {
     }
     let is_robots = name == robot || name.strip_suffix("Prepared") == Some(robot);
     if is_robots || hides_a_common_name(&name) { name + "Frame" } else { name }
+}
+
+/// Bodies become types of Rust: those whose names cannot, and those that would be the same one. Joints keep their names:
+/// nothing in Rust is called after them.
+pub fn check_types(spec: &RobotSpec, diags: &mut Diagnostics) {
+    let robot = spec.ident.to_string();
+    let mut seen: FxHashMap<String, &str> = FxHashMap::default();
+    for name in framed(spec) {
+        let type_ = frame_type(&name.text, &robot);
+        if syn::parse_str::<syn::Ident>(&type_).is_err() {
+            let message = format!("the body `{name}` would be the type `{type_}`, which is no name of Rust");
+            diags.error(Code::NameReserved, &name.place, message);
+            continue;
+        }
+        let first = *seen.entry(type_.clone()).or_insert(&name.text);
+        if first != name.text {
+            let message = format!("the bodies `{first}` and `{name}` would both be the type `{type_}`");
+            diags.error(Code::NamesCollide, &name.place, message);
+        }
+    }
+}
+
+/// The names of bodies, described or carried, as they were written one after the other.
+fn framed(spec: &RobotSpec) -> impl Iterator<Item = &Name> {
+    let described: FxHashMap<_, _> = spec.bodies.iter().map(|body| (body.name.text.as_str(), ())).collect();
+    let carried = spec.joints.iter().filter(|joint| !joint.is_bare).map(|joint| (joint.line, &joint.child));
+    let carried = carried.filter(|(_, name)| !described.contains_key(name.text.as_str()));
+    let mut names: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).chain(carried).collect();
+    names.sort_by_key(|(line, _)| *line);
+    names.into_iter().map(|(_, name)| name).filter(|name| name.text != WORLD)
 }
 
 /// Whether a type of this name hides one of the standard prelude's or of the run time's.

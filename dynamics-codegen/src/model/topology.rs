@@ -6,7 +6,6 @@ use rustc_hash::FxHashMap;
 
 use super::composition::composition;
 use super::mimic;
-use super::names::frame_type;
 use crate::diagnostics::{Code, Diagnostic, Diagnostics, Place};
 use crate::spec::{JointSpec, Name, RobotSpec, leaders, welded};
 
@@ -156,18 +155,15 @@ fn carriers<'s>(spec: &'s RobotSpec, diags: &mut Diagnostics) -> FxHashMap<&'s s
     carriers
 }
 
-/// Names given twice, names that cannot be used, and names that become the same identifier.
+/// Names given twice, and that of the world.
 fn check_names(spec: &RobotSpec, diags: &mut Diagnostics) {
     let joint = |joint: &'_ JointSpec| if joint.is_bare { "coordinate" } else { "joint" };
     distinct_names(spec.joints.iter().map(|spec| (joint(spec), &spec.name)), diags);
-    let mut bodies: Vec<_> = spec.bodies.iter().map(|body| (body.line, &body.name)).collect();
-    distinct_names(bodies.iter().map(|(_, name)| ("body", *name)), diags);
-    let described: FxHashMap<_, _> = bodies.iter().map(|(_, name)| (name.text.as_str(), ())).collect();
-    let frames = spec.joints.iter().filter(|joint| !joint.is_bare).map(|joint| (joint.line, &joint.child));
-    let frames = frames.filter(|(_, name)| name.text != WORLD && !described.contains_key(&*name.text));
-    bodies.extend(frames);
-    bodies.sort_by_key(|(line, _)| *line);
-    distinct_types(bodies.into_iter().map(|(_, name)| name), &spec.ident.to_string(), diags);
+    distinct_names(spec.bodies.iter().map(|body| ("body", &body.name)), diags);
+    for body in spec.bodies.iter().filter(|body| body.name.text == WORLD) {
+        let message = "`world` is where every robot stands, and cannot be described";
+        diags.error(Code::NameReserved, &body.name.place, message);
+    }
 }
 
 /// Names, each with what it is of.
@@ -180,27 +176,6 @@ fn distinct_names<'s>(names: impl Iterator<Item = (&'static str, &'s Name)>, dia
             Some(first) => format!("there are a {first} line and a {what} line for `{name}`"),
         };
         diags.error(Code::NameDuplicate, &name.place, message);
-    }
-}
-
-/// Bodies become types. Joints keep their names: nothing in Rust is called after them.
-fn distinct_types<'s>(names: impl Iterator<Item = &'s Name>, robot: &str, diags: &mut Diagnostics) {
-    let mut seen: FxHashMap<String, &str> = FxHashMap::default();
-    for name in names {
-        let type_ = frame_type(&name.text, robot);
-        if name.text == WORLD || syn::parse_str::<syn::Ident>(&type_).is_err() {
-            let message = match name.text.as_str() {
-                WORLD => "`world` is where every robot stands, and cannot be described".to_owned(),
-                _ => format!("the body `{name}` would be the type `{type_}`, which is no name of Rust"),
-            };
-            diags.error(Code::NameReserved, &name.place, message);
-            continue;
-        }
-        let first = *seen.entry(type_.clone()).or_insert(&name.text);
-        if first != name.text {
-            let message = format!("the bodies `{first}` and `{name}` would both be the type `{type_}`");
-            diags.error(Code::NamesCollide, &name.place, message);
-        }
     }
 }
 

@@ -19,7 +19,7 @@ mod verify;
 
 pub use compile::{Compiled, CompiledMethod, Sizes, compile, entries};
 pub use hoist::Companion;
-pub use plan::{Plan, RunTime, methods, without_terms};
+pub use plan::{Lack, Plan, RunTime, lacks, methods, without_terms};
 pub use program::{Cost, Operand, Operation, Program, Source, Step};
 pub use schedule::schedule;
 pub use share::share;

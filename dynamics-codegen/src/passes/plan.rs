@@ -157,6 +157,27 @@ impl Plans {
         }
     }
 
+    /// Why there is no such method, if there is none.
+    fn lack(&self, method: Method, model: &Model<'_>) -> Option<Lack> {
+        match method.trait_() {
+            Trait::Regressor | Trait::BaseRegressor => {
+                (self.form(Method::Regressor) == Form::Table).then_some(Lack::TooLong)
+            }
+            Trait::CentroidalDynamics => {
+                let has_mass = model.tree.links.iter().any(|link| !link.inertia.mass.is_zero());
+                (!has_mass).then_some(Lack::Massless)
+            }
+            Trait::Dynamics | Trait::DynamicsDerivatives if !model.tree.terms.is_empty() => {
+                match self.form(method) {
+                    Form::Table => Some(Lack::LoopsWithoutTerms),
+                    Form::Loops => calls(method).iter().find_map(|&called| self.lack(called, model)),
+                    Form::StraightLine | Form::Lanes => None,
+                }
+            }
+            _ => None,
+        }
+    }
+
     /// Whether branches that are alike make a straight line short enough for many right-hand sides: they must be half as
     /// many joints again.
     fn is_solved_side_by_side(&self) -> bool {
@@ -275,8 +296,7 @@ fn suits_lanes(links: &[Link<Expr<'_>>]) -> bool {
     links.iter().enumerate().all(is_own) && (0..links.len()).all(follows)
 }
 
-/// The methods to compile: those named and what they call, or all that the robot has. Where all inertia is in terms of
-/// the kinetic energy, there is no centre of mass.
+/// The methods to compile: those named and what they call, or all that the robot has.
 pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
     let plans = Plans::of(model, run_time);
     let of_frames = (0..model.tree.frames.len()).flat_map(Method::of_frame);
@@ -299,25 +319,33 @@ pub fn methods(wanted: Option<&[&str]>, model: &Model<'_>, run_time: RunTime) ->
         .flat_map(|caller| calls(caller).iter().flat_map(move |&called| [&[called], calls(called)].concat()))
         .collect();
     let is_called = |method: Method| called.contains(&method);
-    let is_too_long = |method: Method| {
-        matches!(method.trait_(), Trait::Regressor | Trait::BaseRegressor)
-            && plans.form(Method::Regressor) == Form::Table
-    };
-    let has_mass = model.tree.links.iter().any(|link| !link.inertia.mass.is_zero());
-    let is_nowhere = |method: Method| method.trait_() == Trait::CentroidalDynamics && !has_mass;
+    let is_there = |method: Method| matches!(plans.lack(method, model), None | Some(Lack::LoopsWithoutTerms));
     let all = Method::OF_ROBOT.into_iter().chain(of_frames);
-    let all = all.filter(|&method| (is_wanted(method) || is_called(method)) && !is_too_long(method));
-    all.filter(|&method| !is_nowhere(method)).collect()
+    all.filter(|&method| (is_wanted(method) || is_called(method)) && is_there(method)).collect()
 }
 
-/// The methods among these that terms have a part in and that are recursions over a table of links, which has none.
+/// Those of these methods that the robot would have if it had no terms: it must not ask for them.
 pub fn without_terms(methods: &[Method], model: &Model<'_>, run_time: RunTime) -> Vec<Method> {
-    if model.tree.terms.is_empty() {
-        return vec![];
-    }
+    let lacks = lacks(model, run_time);
+    methods.iter().copied().filter(|method| lacks.contains(&(*method, Lack::LoopsWithoutTerms))).collect()
+}
+
+/// Why a robot has no method of a name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lack {
+    /// A straight line would be too long, and there is no other form: of regressors.
+    TooLong,
+    /// A straight line would be too long, and a recursion over a table of links has no terms: of what terms have a part in.
+    LoopsWithoutTerms,
+    /// It is about mass, and no body that moves has any: all inertia is in terms of the kinetic energy.
+    Massless,
+}
+
+/// The methods of robots that this one has not, with the reason of each. Those of frames it has.
+pub fn lacks(model: &Model<'_>, run_time: RunTime) -> Vec<(Method, Lack)> {
     let plans = Plans::of(model, run_time);
-    let of_forces = methods.iter().copied().filter(|method| method.trait_().is_of_forces());
-    of_forces.filter(|method| plans.form(*method) == Form::Table).collect()
+    let lack = |method| plans.lack(method, model).map(|lack| (method, lack));
+    Method::OF_ROBOT.into_iter().filter_map(lack).collect()
 }
 
 /// Whether the robot has more to say than the trait's default does.

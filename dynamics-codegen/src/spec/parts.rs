@@ -34,6 +34,15 @@ impl JointKind {
         }
     }
 
+    /// Of each of its coordinates, whether it is an angle; else it is a distance. None of a quaternion's.
+    pub fn coordinate_turns(self) -> Vec<Option<bool>> {
+        match self {
+            Self::Ball => vec![None; 4],
+            Self::Free => [vec![Some(false); 3], vec![None; 4]].concat(),
+            kind => kind.turns().iter().copied().map(Some).collect(),
+        }
+    }
+
     /// Of each of its speeds, whether it is that of an angle; else it is that of a distance.
     pub fn turns(self) -> &'static [bool] {
         match self {
@@ -62,6 +71,7 @@ mod tests {
             assert_eq!(of_one(kind.displacement_parts()), kind.speeds(), "{name}");
             assert_eq!(of_one(kind.speed_parts()), kind.speeds(), "{name}");
             assert_eq!(kind.turns().len(), kind.speeds(), "{name}");
+            assert_eq!(kind.coordinate_turns().len(), kind.coordinates(), "{name}");
         }
     }
 }

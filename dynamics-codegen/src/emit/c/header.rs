@@ -6,7 +6,7 @@ use super::functions::{Function, LeftOut};
 use super::names::Robot;
 use super::words::comment;
 use super::{Input, configuration};
-use crate::model::{JointInfo, Limits, Motion};
+use crate::model::{JointInfo, Limits};
 
 const CONVENTIONS: &[&str] = &[
     "M(q) a + C(q,v) v + G(q) + passive forces = tau",
@@ -94,15 +94,13 @@ fn about(input: &Input<'_, '_>) -> Vec<String> {
 
 /// `, rad, -2.967 to 2.967`
 fn of_coordinate(input: &Input<'_, '_>, k: usize) -> String {
-    let link =
-        input.model.tree.links.iter().find(|l| (l.drive.q..l.drive.q + l.motion.coordinates()).contains(&k));
-    let unit = link.map_or("", |link| match (link.motion, k - link.drive.q) {
-        (Motion::Revolute, _) => ", rad",
-        (Motion::Prismatic, _) | (Motion::Free, 0..3) => ", m",
-        (Motion::Ball | Motion::Free, _) => "",
-    });
-    let is_single = |joint: &&JointInfo| joint.q.contains(&k) && joint.q.len() == joint.v.len();
-    let joint = input.model.joints.iter().find(is_single);
+    let joint = input.model.joints.iter().find(|joint| joint.q.contains(&k));
+    let unit = match joint.and_then(|joint| joint.kind.coordinate_turns()[k - joint.q.start]) {
+        Some(true) => ", rad",
+        Some(false) => ", m",
+        None => "",
+    };
+    let joint = joint.filter(|joint| joint.q.len() == joint.v.len());
     let limits = joint.and_then(|joint| joint.limits.get(k - joint.q.start));
     let range = limits.map_or(String::new(), |Limits { lower, upper, .. }| match (lower, upper) {
         (&f64::NEG_INFINITY, &f64::INFINITY) => String::new(),
@@ -115,13 +113,11 @@ fn of_coordinate(input: &Input<'_, '_>, k: usize) -> String {
 
 /// `, rad/s, N m, |v| <= 1.7, |tau| <= 320`
 fn of_speed(input: &Input<'_, '_>, k: usize) -> String {
-    let link =
-        input.model.tree.links.iter().find(|l| (l.drive.v..l.drive.v + l.motion.speeds()).contains(&k));
-    let units = link.map_or("", |link| match (link.motion, k - link.drive.v) {
-        (Motion::Prismatic, _) | (Motion::Free, 0..3) => ", m/s, N",
-        (Motion::Revolute | Motion::Ball | Motion::Free, _) => ", rad/s, N m",
-    });
     let joint = input.model.joints.iter().find(|joint| joint.v.contains(&k));
+    let units = joint.map_or("", |joint| match joint.kind.turns()[k - joint.v.start] {
+        true => ", rad/s, N m",
+        false => ", m/s, N",
+    });
     let limits = joint.and_then(|joint| joint.limits.get(k - joint.v.start));
     let bound = |name: &str, value: f64| {
         if value.is_finite() { format!(", |{name}| <= {value}") } else { String::new() }
