@@ -77,6 +77,17 @@ impl<const N: usize> Joints<N> {
     fn iter(&self) -> impl Iterator<Item = usize> + '_ {
         self.joints.get(..self.count).unwrap_or_default().iter().map(|&k| usize::from(k))
     }
+
+    /// The strips of S that they are in, from the last to the first.
+    #[inline(always)]
+    fn strips<const S: usize>(&self) -> impl Iterator<Item = usize> + '_ {
+        let joints = self.joints.get(..self.count).unwrap_or_default();
+        let mut last = None;
+        joints.iter().rev().filter_map(move |&k| {
+            let strip = usize::from(k) / S;
+            (last.replace(strip) != Some(strip)).then_some(strip)
+        })
+    }
 }
 
 impl<const N: usize> EliminationTree<N> {
@@ -116,13 +127,13 @@ impl<const N: usize> EliminationTree<N> {
     }
 
     #[inline(always)]
-    fn below(&self, strip: usize) -> impl Iterator<Item = usize> + '_ {
-        self.below.get(strip).unwrap_or(const { &Joints::NONE }).iter()
+    fn below(&self, strip: usize) -> &Joints<N> {
+        self.below.get(strip).unwrap_or(const { &Joints::NONE })
     }
 
     #[inline(always)]
-    fn beyond(&self, strip: usize) -> impl Iterator<Item = usize> + '_ {
-        self.beyond.get(strip).unwrap_or(const { &Joints::NONE }).iter()
+    fn beyond(&self, strip: usize) -> &Joints<N> {
+        self.beyond.get(strip).unwrap_or(const { &Joints::NONE })
     }
 }
 
@@ -149,7 +160,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     }
 
     /// Those of a symmetric positive definite matrix, of which the rows up to the diagonal are read. What functions
-    /// return is copied, so that they are made first.
+    /// return is copied, so that they are made first. Where the tree has no entries they stay what they were: zeros.
     ///
     /// # Cost
     ///
@@ -159,7 +170,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         let Self { tree, r, r_transposed, inverse_d } = self;
         factor(m, tree, r_transposed, r, inverse_d);
         invert_triangular(r_transposed, tree, r);
-        transpose_triangular(r, r_transposed);
+        transpose_triangular(r, tree, r_transposed);
     }
 
     /// `−M⁻¹·B`, by columns.
@@ -179,7 +190,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
                     self.write_halfway(columns, &minus_inverse_d, &mut halfway);
                     by_rows!(T, ROWS = STRIP, {
                         for part in (0..N.div_ceil(ROWS)).rev() {
-                            let terms = self.tree.below(part * ROWS / STRIP);
+                            let terms = self.tree.below(part * ROWS / STRIP).iter();
                             let sums: [[T; ROWS]; $width] =
                                 products(&self.r, |k| row_of(&halfway, k), terms, part);
                             put!(solved: [[_; N]; M], first, part, sums);
@@ -206,7 +217,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
     /// Writes `D⁻¹ Rᵀ·B`, with the given `D⁻¹`.
     #[inline(always)]
     fn write_halfway<const W: usize>(&self, b: &[[T; N]; W], inverse_d: &[T; N], halfway: &mut [[T; N]; W]) {
-        let beyond = |strip: usize| self.tree.beyond(strip);
+        let beyond = |strip: usize| self.tree.beyond(strip).iter();
         let factors = |k| row_of(b, k);
         by_rows!(T, ROWS = STRIP, multiply::<T, N, W, ROWS, _>(&self.r_transposed, factors, beyond, halfway));
         for column in halfway {
@@ -277,7 +288,7 @@ fn inverse<T: Scalar, const N: usize>(
         ($width:ident, $columns:expr) => {
             let mut rows = [[T::zero(); $width]; N];
             for first in $columns.step_by($width) {
-                for k in tree.below(first / STRIP) {
+                for k in tree.below(first / STRIP).iter() {
                     if let (Some(row), Some(column)) = (rows.get_mut(k), r.get(k)) {
                         *row = part(column, first);
                         for x in row {
@@ -288,7 +299,7 @@ fn inverse<T: Scalar, const N: usize>(
                 let factors = |k: usize| rows.get(k).copied().unwrap_or([T::zero(); $width]);
                 by_rows!(T, ROWS = LONG_STRIP, {
                     for strip in (first / ROWS..N.div_ceil(ROWS)).rev() {
-                        let sums: [[T; ROWS]; $width] = products(r, factors, tree.below(first / STRIP), strip);
+                        let sums: [[T; ROWS]; $width] = products(r, factors, tree.below(first / STRIP).iter(), strip);
                         put!(inverse: [[_; N]; N], first, strip, sums);
                     }
                 });
@@ -357,7 +368,7 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize, const S: usize>(
         return;
     };
     let (Some(l), Some(minus_dl)) = (l.last_chunk_mut::<W>(), minus_dl.last_chunk_mut::<W>()) else { return };
-    let beyond = || tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));
+    let beyond = || tree.beyond(first / STRIP).iter().filter_map(|k| k.checked_sub(end));
     let factors = |k: usize| multiples.get(k).map_or([T::zero(); W], |row| part(row, first));
     // What is on the diagonal by itself, and first: all that waits is in there.
     let mut own = [[T::zero(); W]; W];
@@ -374,7 +385,7 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize, const S: usize>(
     }
     let (minus_l, inverses) = factor_block(own);
     inverse_d.copy_from_slice(&inverses);
-    for strip in (0..=(end - 1) / S).rev() {
+    for strip in tree.below(first / STRIP).strips::<S>() {
         let mut rows: [[T; S]; W] = strip_of(m, strip);
         add_products(known, factors, beyond(), strip, &mut rows);
         eliminate(&minus_l, &mut rows);
@@ -460,13 +471,13 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
         *own = minus(first + w);
     }
     // Whatever the rows at a time, the terms are those of a long strip.
-    for part in (first / LONG_STRIP * (LONG_STRIP / S)..N.div_ceil(S)).rev() {
+    for part in tree.beyond(first / STRIP).strips::<S>() {
         let mut sums = [[T::zero(); S]; W];
         for (w, sums) in sums.iter_mut().enumerate() {
             set(sums, (first + w).wrapping_sub(first_of(part, S, N)), T::one());
         }
         let end_of_strip = (part * S / LONG_STRIP + 1) * LONG_STRIP;
-        let reaching = tree.beyond(first / STRIP).filter_map(|k| k.checked_sub(end));
+        let reaching = tree.beyond(first / STRIP).iter().filter_map(|k| k.checked_sub(end));
         let reaching = reaching.take_while(|&k| k + end < end_of_strip);
         add_products(known, |k| minus(k + end), reaching, part, &mut sums);
         eliminate(&own, &mut sums);
@@ -474,16 +485,21 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
     }
 }
 
-/// Writes the transpose of a matrix that is zero above the diagonal, both by columns, as far down as the strip of the
-/// diagonal.
+/// Writes the transpose of a matrix that is zero above the diagonal and off the tree, both by columns, as far down as the
+/// strip of the diagonal.
 #[inline]
-fn transpose_triangular<T: Scalar, const N: usize>(m: &[[T; N]; N], result: &mut [[T; N]; N]) {
+fn transpose_triangular<T: Scalar, const N: usize>(
+    m: &[[T; N]; N],
+    tree: &EliminationTree<N>,
+    result: &mut [[T; N]; N],
+) {
     // Lanes of a scalar are no rows: one by one.
     let blocks = if has_lanes::<T>() { 0 } else { N / STRIP };
     for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate().take(blocks) {
-        for (strip, columns_of_result) in result.as_chunks_mut::<STRIP>().0.iter_mut().enumerate().skip(block)
-        {
-            write_tile(columns_of_result, block, transposed(tile(columns, strip)));
+        for strip in tree.beyond(block).strips::<STRIP>() {
+            if let Some(columns_of_result) = result.as_chunks_mut::<STRIP>().0.get_mut(strip) {
+                write_tile(columns_of_result, block, transposed(tile(columns, strip)));
+            }
         }
     }
     for (k, column) in result.iter_mut().enumerate().skip(blocks * STRIP) {
