@@ -33,7 +33,7 @@ const FEWEST_MASSES_IN_LANES: usize = 20;
 pub enum Plan<'g> {
     /// By a program of its own.
     StraightLine {
-        /// What it returns, simplified.
+        /// What it returns, simplified; of what is solved for side by side, what it is solved from.
         blocks: Vec<Block<'g>>,
         /// The operations.
         program: Program,
