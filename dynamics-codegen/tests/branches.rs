@@ -1,4 +1,5 @@
-//! Branches that are alike, side by side: what is found, and that it computes what one after the other does.
+//! What is computed side by side, branches that are alike and columns that are solved for: what is found, and that it
+//! computes what one after the other does.
 
 use dynamics_codegen::mechanics::equations::{Argument, Input, Method};
 use dynamics_codegen::passes::{Branches, Compiled, Operation, Plan, Program, RunTime, Source, Stage};
@@ -53,6 +54,17 @@ fn legs(count: usize) -> String {
         let hip = file.link(0, "continuous", [side, 0.0, 0.0], [0.1 * leg as f64, 0.2 * side, 0.0]);
         let thigh = file.link(hip, "continuous", [0.0, side, 0.0], [0.0, 0.1 * side, 0.0]);
         file.link(thigh, "continuous", [0.0, 1.0, 0.0], [0.0, 0.0, -0.3]);
+    }
+    file.end()
+}
+
+/// An arm of so many joints, the first about this axis.
+fn arm(joints: usize, first: [f64; 3]) -> String {
+    let mut file = File::new(100 + joints as u64);
+    let mut link = file.link(0, "continuous", first, [0.0, 0.0, 0.2]);
+    for joint in 1..joints {
+        let axis = [[0.0, 1.0, 0.0], [0.0, 0.6, 0.8]][joint % 2];
+        link = file.link(link, "continuous", axis, [0.1, 0.0, 0.3]);
     }
     file.end()
 }
@@ -275,5 +287,50 @@ fn fields_in_branches_are_prepared() {
             assert_eq!(compiled.companion.fields.len(), 2, "the damping and the rotor's inertia");
         }
         Err(mistakes) => panic!("{}", mistakes.into_compile_errors()),
+    }
+}
+
+#[test]
+fn all_columns_that_an_arm_solves_for_are_one() {
+    for joints in 5..=7 {
+        // About the vertical nothing changes with the first joint: its column is zero.
+        for (first, columns) in [([1.0, 0.0, 0.0], 2 * joints), ([0.0, 0.0, 1.0], 2 * joints - 1)] {
+            let text = arm(joints, first);
+            assert_eq!(lanes_of(&text, ""), 1);
+            with_compiled(&text, "", |compiled| {
+                for method in [Method::ForwardDynamicsDerivatives, Method::ForwardDynamicsWithDerivatives] {
+                    let program = program(compiled, method).expect("it is a straight line");
+                    let widest = program.steps.iter().map(|step| step.lanes).max();
+                    assert_eq!(widest, Some(columns), "{method:?} of {joints} joints");
+                    let stages = program.stages();
+                    let stretches = stages.iter().filter(|stage| matches!(stage, Stage::Branches(_))).count();
+                    assert_eq!(stretches, 1, "{method:?} of {joints} joints");
+                }
+            });
+        }
+    }
+}
+
+#[test]
+fn so_are_those_of_joints_that_follow_others_and_of_springs_and_dampers() {
+    let attributes = "#[joint(j7, mimic = j2)] #[joint(j3, stiffness = 3, damping = 0.2, armature = 0.1)]";
+    assert_eq!(lanes_of(&arm(7, [1.0, 0.0, 0.0]), attributes), 1);
+    with_compiled(&arm(7, [1.0, 0.0, 0.0]), attributes, |compiled| {
+        let program = program(compiled, Method::ForwardDynamicsDerivatives).expect("it is a straight line");
+        assert!(program.steps.iter().any(|step| step.lanes == 12));
+    });
+}
+
+#[test]
+fn of_a_few_joints_and_on_a_free_base_each_column_is_solved_for_alone() {
+    for (text, attributes) in
+        [(arm(4, [1.0, 0.0, 0.0]), ""), (arm(1, [1.0, 0.0, 0.0]), "#[dynamics(base = free)]")]
+    {
+        assert_eq!(lanes_of(&text, attributes), 1);
+        with_compiled(&text, attributes, |compiled| {
+            let program =
+                program(compiled, Method::ForwardDynamicsDerivatives).expect("it is a straight line");
+            assert!(!program.has_lanes());
+        });
     }
 }

@@ -21,7 +21,7 @@ use crate::trigonometry::sin_cos_f64 as sin_cos_double;
 pub const FUSED: bool = cfg!(all(feature = "std", any(target_feature = "fma", target_arch = "aarch64")));
 
 /// The most branches that are in a line of code each.
-const SPELT_OUT: usize = 8;
+const SPELT_OUT: usize = 14;
 
 /// Computes one branch.
 macro_rules! branch {
@@ -79,7 +79,7 @@ pub trait Scalar:
                 })*
             };
         }
-        spelt_out!(0 1 2 3 4 5 6 7);
+        spelt_out!(0 1 2 3 4 5 6 7 8 9 10 11 12 13);
         if const { N > SPELT_OUT } {
             for branch in 0..N {
                 branch!(F, own, shared, results, branch);

@@ -405,6 +405,37 @@ impl<'g> Derivation<'g> {
         (a, derivatives)
     }
 
+    /// What the derivatives of forward dynamics are solved for with, for those who solve for all columns at once: `∂τ/∂q` and
+    /// `∂τ/∂v` at the acceleration that τ causes, `M⁻¹`, and the factors of M, L below the diagonal and `1/D` on it; before them
+    /// that acceleration, where the method gives it. None of another method, and where columns are known.
+    pub fn before_solving(&self, method: Method) -> Option<Vec<Block<'g>>> {
+        let gives_a = match method {
+            Method::ForwardDynamicsDerivatives => false,
+            Method::ForwardDynamicsWithDerivatives => true,
+            _ => return None,
+        };
+        let Known { by_q, by_v } = self.known_derivatives();
+        if by_q.iter().chain(&by_v).any(Option::is_some) {
+            return None;
+        }
+        let (a, factor) = self.forward_dynamics();
+        let (dtau_dq, dtau_dv) = self.inverse_dynamics_derivatives(&a);
+        let entry = |i: usize, j: usize| match j.cmp(&i) {
+            std::cmp::Ordering::Less => factor.L[i][j],
+            std::cmp::Ordering::Equal => factor.inverse_D[i],
+            std::cmp::Ordering::Greater => Expr::ZERO,
+        };
+        let n = self.inputs.dof;
+        let factors = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+        let blocks = vec![
+            square("da_dq", dtau_dq),
+            square("da_dv", dtau_dv),
+            square("da_dtau", self.inverse(&factor)),
+            square("factors", factors),
+        ];
+        Some(if gives_a { with_derivatives(vector("a", a), blocks) } else { blocks })
+    }
+
     /// The columns of `∂a/∂q` and `∂a/∂v` that are known without solving. Terms of the energies may know where a body is.
     fn known_derivatives(&self) -> Known<Expr<'g>> {
         match self.added {

@@ -4,6 +4,7 @@ use super::factoring::factoring;
 use super::lanes::Layout;
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans, RunTime, calls};
+use super::right_sides::{before_solving, solved};
 use super::schedule::{arithmetic, schedule, schedule_in};
 use super::share::share;
 use super::table;
@@ -107,6 +108,7 @@ pub fn compile<'g>(
     let straight = methods.iter().copied().filter(|&method| is_straight(method) && has_own(method));
     let mut normaliser = Normaliser::new(graph);
     let mut side_by_side: Vec<Method> = Vec::new();
+    let mut solved_side_by_side: Vec<Method> = Vec::new();
     let equations: Vec<Equation<'g>> = straight
         .map(|method| {
             let alike = alike.iter().chain(&alike_at_rest);
@@ -116,7 +118,18 @@ pub fn compile<'g>(
             }
             let at_rest = at_rest.as_ref().filter(|_| method.trait_().is_of_forces());
             let derivations = std::iter::once(&derivation).chain(at_rest);
-            Equation { method, blocks: cheapest(derivations, method, &mut normaliser) }
+            let to_solve = (run_time == RunTime::Core).then(|| before_solving(derivations.clone(), method));
+            let blocks = match to_solve.flatten() {
+                Some(candidates) => {
+                    solved_side_by_side.push(method);
+                    cheapest(&derivation, candidates.into_iter(), &mut normaliser)
+                }
+                None => {
+                    let candidates = derivations.flat_map(|derivation| derivation.alternatives(method));
+                    cheapest(&derivation, candidates, &mut normaliser)
+                }
+            };
+            Equation { method, blocks }
         })
         .collect();
     let table = methods
@@ -142,10 +155,14 @@ pub fn compile<'g>(
         let (plan, cost) = match plan.form(method) {
             Form::StraightLine => {
                 let blocks = blocks_of(method);
-                let is_side_by_side = side_by_side.contains(&shares(method).unwrap_or(method));
-                let program = match branches.filter(|_| is_side_by_side) {
+                let owner = shares(method).unwrap_or(method);
+                let program = match branches.filter(|_| side_by_side.contains(&owner)) {
                     Some(branches) => program_side_by_side(&entries(&blocks), branches),
                     None => program_of(&entries(&blocks)),
+                };
+                let (blocks, program) = match solved_side_by_side.contains(&owner) {
+                    true => solved(blocks, program, inputs.dof),
+                    false => (blocks, program),
                 };
                 let cost = program.cost();
                 (Plan::StraightLine { blocks, program }, cost)
@@ -198,20 +215,16 @@ fn best_unit(derivation: &Derivation<'_>) -> Number {
     units.into_iter().min_by_key(cost).unwrap_or(Number::ONE)
 }
 
-/// The cheapest way to compute a method's result, simplified.
-fn cheapest<'d, 'g: 'd>(
-    derivations: impl Iterator<Item = &'d Derivation<'g>>,
-    method: Method,
+/// The cheapest of several ways to compute a method's result, simplified.
+fn cheapest<'g>(
+    derivation: &Derivation<'g>,
+    candidates: impl Iterator<Item = Vec<Block<'g>>>,
     normaliser: &mut Normaliser<'g>,
 ) -> Vec<Block<'g>> {
-    let mut derivations = derivations.peekable();
-    let Some(&&Derivation { graph, inputs, .. }) = derivations.peek() else { return vec![] };
+    let Derivation { graph, inputs, .. } = *derivation;
     let is_free = |node| graph.is_parameter_only(node);
     let cost = |blocks: &Vec<Block<'g>>| arithmetic(graph, &entries(blocks), is_free);
-    let mut plain: Vec<Vec<Block<'g>>> = Vec::new();
-    for blocks in derivations.flat_map(|derivation| derivation.alternatives(method)) {
-        plain.push(normalised(&blocks, normaliser));
-    }
+    let mut plain: Vec<Vec<Block<'g>>> = candidates.map(|blocks| normalised(&blocks, normaliser)).collect();
     plain.sort_by_key(cost);
     if inputs.dof > LARGEST_TO_SHARE_ALL {
         plain.truncate(1);

@@ -13,6 +13,8 @@ const QUOTIENT: u32 = 14;
 const ROOT: u32 = 18;
 /// A sine with its cosine: eleven operations of the kernel one after another.
 const SINE_AND_COSINE: u32 = 45;
+/// Doubles in a register of 256 bits.
+const NUMBERS_IN_A_REGISTER: usize = 4;
 /// The operations of that kernel for one angle, most of them fused; four in lanes take little more.
 const INSTRUCTIONS_OF_SINE_AND_COSINE: u32 = 20;
 
@@ -36,7 +38,8 @@ impl Program {
         program.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
     }
 
-    /// The number of floating-point instructions, a fused multiply-add being one, and several numbers side by side: on a
+    /// The number of floating-point instructions, a fused multiply-add being one, and as many numbers side by side as
+    /// a register holds: on a
     /// core that begins `k` of them in each cycle, a `k`-th is the least number of cycles a call, however many overlap.
     pub fn instructions(&self) -> u32 {
         let instructions = |operation| match operation {
@@ -44,7 +47,9 @@ impl Program {
             Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => 0,
             _ => 1,
         };
-        self.steps.iter().map(|step| instructions(step.operation)).sum()
+        let registers =
+            |lanes: usize| u32::try_from(lanes.div_ceil(NUMBERS_IN_A_REGISTER)).unwrap_or(u32::MAX);
+        self.steps.iter().map(|step| instructions(step.operation) * registers(step.lanes)).sum()
     }
 }
 

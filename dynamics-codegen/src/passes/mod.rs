@@ -10,6 +10,7 @@ mod parameters;
 mod plan;
 mod program;
 mod regression;
+mod right_sides;
 mod schedule;
 mod share;
 mod signs;

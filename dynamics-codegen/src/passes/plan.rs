@@ -37,7 +37,7 @@ const SPEEDS_OF_FREE_BASE: usize = 4;
 pub enum Plan<'g> {
     /// By a program of its own.
     StraightLine {
-        /// What it returns, simplified.
+        /// What it returns, simplified; of what is solved for side by side, what it is solved from.
         blocks: Vec<Block<'g>>,
         /// The operations.
         program: Program,

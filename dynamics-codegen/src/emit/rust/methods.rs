@@ -47,7 +47,8 @@ pub(super) fn write(
         }
         Plan::StraightLine { program, .. } if program.has_lanes() => writeln!(
             text,
-            "    ///\n    /// {operations}; each `l…` has a number for every one of the branches that are alike."
+            "    ///\n    /// {operations}; each `l…` has a number for every one of the branches that are alike, or of the \
+             columns that are solved for."
         ),
         _ => writeln!(text, "    ///\n    /// {operations}."),
     };
