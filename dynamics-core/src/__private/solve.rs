@@ -471,7 +471,9 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
         *own = minus(first + w);
     }
     // Whatever the rows at a time, the terms are those of a long strip.
-    for part in tree.beyond(first / STRIP).strips::<S>() {
+    // Above the diagonal, too, for those are terms of rows in the same long strip.
+    let above = first / LONG_STRIP * (LONG_STRIP / S)..first / S;
+    for part in tree.beyond(first / STRIP).strips::<S>().chain(above) {
         let mut sums = [[T::zero(); S]; W];
         for (w, sums) in sums.iter_mut().enumerate() {
             set(sums, (first + w).wrapping_sub(first_of(part, S, N)), T::one());
