@@ -58,6 +58,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// `M`, both halves, with these armatures.
     #[inline(never)]
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    #[allow(clippy::needless_range_loop, reason = "an iterator borrows")]
     pub(super) fn mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
         let mut m = blank();
         let mut rows = [[T::zero(); N]; 6];
@@ -104,6 +105,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// diagonal; `nu` has what their turns are multiplied with.
     #[inline(never)]
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
+    #[allow(clippy::needless_range_loop, reason = "an iterator borrows")]
     #[allow(clippy::modulo_one, reason = "some scalars take one row at a time")]
     pub(super) fn changes(
         &self,
