@@ -38,9 +38,9 @@ impl Program {
         program.results.iter().map(|operand| known_at(&ready, operand.source)).max().unwrap_or(0)
     }
 
-    /// The number of floating-point instructions, a fused multiply-add being one, and as many numbers side by side as
-    /// a register holds: on a
-    /// core that begins `k` of them in each cycle, a `k`-th is the least number of cycles a call, however many overlap.
+    /// The number of floating-point instructions, a fused multiply-add being one, and as many numbers side by side as a
+    /// register holds: on a core that begins `k` of them in each cycle, a `k`-th is the least number of cycles a call, however
+    /// many overlap.
     pub fn instructions(&self) -> u32 {
         let instructions = |operation| match operation {
             Operation::SinCos(..) => INSTRUCTIONS_OF_SINE_AND_COSINE,
