@@ -139,37 +139,37 @@ bodies! { Snake, b0 by free:
 macro_rules! humanoid {
     ($name:ident by $($base:tt)*) => {
         bodies! { $name, pelvis by $($base)*:
-                waist_yaw z pelvis waist [0, 0, 0.1] [0, 0, 0];
-                waist_roll x waist belly [0, 0, 0.05] [0, 0, 0];
-                waist_pitch y belly chest [0, 0, 0.05] [0, 0, 0];
-                neck_yaw z chest neck [0, 0, 0.4] [0, 0, 0];
-                neck_pitch y neck head [0, 0, 0.05] [0, 0, 0];
-                shoulder_pitch_l y chest shoulder_pitch_l_link [0, 0.2, 0.3] [0, 0, 0];
-                shoulder_roll_l x shoulder_pitch_l_link shoulder_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
-                shoulder_yaw_l z shoulder_roll_l_link shoulder_yaw_l_link [0.01, 0, -0.12] [0, 0, 0];
-                elbow_l y shoulder_yaw_l_link elbow_l_link [0.01, 0, -0.12] [0, 0, 0];
-                forearm_l z elbow_l_link forearm_l_link [0.01, 0, -0.12] [0, 0, 0];
-                wrist_pitch_l y forearm_l_link wrist_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
-                wrist_roll_l x wrist_pitch_l_link wrist_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
-                shoulder_pitch_r y chest shoulder_pitch_r_link [0, -0.2, 0.3] [0, 0, 0];
-                shoulder_roll_r x shoulder_pitch_r_link shoulder_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
-                shoulder_yaw_r z shoulder_roll_r_link shoulder_yaw_r_link [0.01, 0, -0.12] [0, 0, 0];
-                elbow_r y shoulder_yaw_r_link elbow_r_link [0.01, 0, -0.12] [0, 0, 0];
-                forearm_r z elbow_r_link forearm_r_link [0.01, 0, -0.12] [0, 0, 0];
-                wrist_pitch_r y forearm_r_link wrist_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
-                wrist_roll_r x wrist_pitch_r_link wrist_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
-                hip_yaw_l z pelvis hip_yaw_l_link [0, 0.1, -0.05] [0, 0, 0];
-                hip_roll_l x hip_yaw_l_link hip_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
-                hip_pitch_l y hip_roll_l_link hip_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
-                knee_l y hip_pitch_l_link knee_l_link [0.01, 0, -0.12] [0, 0, 0];
-                ankle_pitch_l y knee_l_link ankle_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
-                ankle_roll_l x ankle_pitch_l_link ankle_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
-                hip_yaw_r z pelvis hip_yaw_r_link [0, -0.1, -0.05] [0, 0, 0];
-                hip_roll_r x hip_yaw_r_link hip_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
-                hip_pitch_r y hip_roll_r_link hip_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
-                knee_r y hip_pitch_r_link knee_r_link [0.01, 0, -0.12] [0, 0, 0];
-                ankle_pitch_r y knee_r_link ankle_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
-                ankle_roll_r x ankle_pitch_r_link ankle_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+            waist_yaw z pelvis waist [0, 0, 0.1] [0, 0, 0];
+            waist_roll x waist belly [0, 0, 0.05] [0, 0, 0];
+            waist_pitch y belly chest [0, 0, 0.05] [0, 0, 0];
+            neck_yaw z chest neck [0, 0, 0.4] [0, 0, 0];
+            neck_pitch y neck head [0, 0, 0.05] [0, 0, 0];
+            shoulder_pitch_l y chest shoulder_pitch_l_link [0, 0.2, 0.3] [0, 0, 0];
+            shoulder_roll_l x shoulder_pitch_l_link shoulder_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+            shoulder_yaw_l z shoulder_roll_l_link shoulder_yaw_l_link [0.01, 0, -0.12] [0, 0, 0];
+            elbow_l y shoulder_yaw_l_link elbow_l_link [0.01, 0, -0.12] [0, 0, 0];
+            forearm_l z elbow_l_link forearm_l_link [0.01, 0, -0.12] [0, 0, 0];
+            wrist_pitch_l y forearm_l_link wrist_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+            wrist_roll_l x wrist_pitch_l_link wrist_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+            shoulder_pitch_r y chest shoulder_pitch_r_link [0, -0.2, 0.3] [0, 0, 0];
+            shoulder_roll_r x shoulder_pitch_r_link shoulder_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+            shoulder_yaw_r z shoulder_roll_r_link shoulder_yaw_r_link [0.01, 0, -0.12] [0, 0, 0];
+            elbow_r y shoulder_yaw_r_link elbow_r_link [0.01, 0, -0.12] [0, 0, 0];
+            forearm_r z elbow_r_link forearm_r_link [0.01, 0, -0.12] [0, 0, 0];
+            wrist_pitch_r y forearm_r_link wrist_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+            wrist_roll_r x wrist_pitch_r_link wrist_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+            hip_yaw_l z pelvis hip_yaw_l_link [0, 0.1, -0.05] [0, 0, 0];
+            hip_roll_l x hip_yaw_l_link hip_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+            hip_pitch_l y hip_roll_l_link hip_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+            knee_l y hip_pitch_l_link knee_l_link [0.01, 0, -0.12] [0, 0, 0];
+            ankle_pitch_l y knee_l_link ankle_pitch_l_link [0.01, 0, -0.12] [0, 0, 0];
+            ankle_roll_l x ankle_pitch_l_link ankle_roll_l_link [0.01, 0, -0.12] [0, 0, 0];
+            hip_yaw_r z pelvis hip_yaw_r_link [0, -0.1, -0.05] [0, 0, 0];
+            hip_roll_r x hip_yaw_r_link hip_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
+            hip_pitch_r y hip_roll_r_link hip_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+            knee_r y hip_pitch_r_link knee_r_link [0.01, 0, -0.12] [0, 0, 0];
+            ankle_pitch_r y knee_r_link ankle_pitch_r_link [0.01, 0, -0.12] [0, 0, 0];
+            ankle_roll_r x ankle_pitch_r_link ankle_roll_r_link [0.01, 0, -0.12] [0, 0, 0];
         }
     };
 }
