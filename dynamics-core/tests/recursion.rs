@@ -10,12 +10,13 @@ mod laws;
 #[path = "recursion/robots.rs"]
 mod robots;
 
+use crate::common::dual::Dual;
 use crate::common::{random_numbers, random_vector};
-use dynamics_core::__private::recursion::{Joint, Tree};
+use dynamics_core::__private::recursion::{Drive, Joint, Link, Masses, Passive, Tree};
 use dynamics_core::prelude::*;
 
 use laws::for_each_state;
-use robots::{AXES, Robot, Shape, lifted};
+use robots::{AXES, Robot, Shape};
 
 /// Roundings of long sums, relative to the largest entry.
 const TOLERANCE: f64 = 1e-11;
@@ -45,13 +46,53 @@ fn with_stack(bytes: usize, run: impl FnOnce() + Send + 'static) {
 #[test]
 fn single_precision_agrees_with_double() {
     for_each_state::<18, 34, 30>("FRBPuPRfBRFuRusppR", |robot, (q, v, tau)| {
-        let single = lifted::<f32, 18, 34, 30>(&robot.tree);
+        let single = robot.tree.lifted::<f32>();
         let (q32, v32, tau32) = (q.map(|x| x as f32), v.map(|x| x as f32), tau.map(|x| x as f32));
         let a = single.inverse_dynamics(&q32, &v32, &tau32).map(f64::from);
         close(&a, &robot.tree.inverse_dynamics(&q, &v, &tau), 1e-4);
         let c = single.coriolis_matrix(&q32, &v32).map(f64::from);
         close(&c, &robot.tree.coriolis_matrix(&q, &v), 1e-4);
     });
+}
+
+/// A pendulum in memory that is never written.
+macro_rules! pendulum {
+    () => {
+        Tree {
+            links: [Link {
+                parent: None,
+                joint: Joint::Revolute(
+                    Drive { q: 0, v: 0, ratio: 1.0, offset: 0.0 },
+                    Passive { armature: 0.1, damping: 0.0, friction: None, stiffness: 0.0, rest: 0.0 },
+                ),
+                rotation: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
+                position: [0.0, 0.0, 0.3],
+            }],
+            masses: Masses {
+                mass: [2.0],
+                first: [[1.2], [0.0], [0.0]],
+                second: [[0.8], [0.0], [0.0], [0.0], [0.0], [0.0]],
+            },
+            base_mass: 0.0,
+            base_first: [0.0, 0.0, 0.0],
+            gravity: [0.0, 0.0, -9.81],
+        }
+    };
+}
+
+#[test]
+fn a_constant_tree_is_read_where_it_stands_or_in_another_scalar() {
+    static DOUBLE: Tree<f64, 1, 1, 1> = pendulum!();
+    static SINGLE: Tree<f32, 1, 1, 1> = pendulum!();
+    assert!(DOUBLE.read_in(&SINGLE, |tree| core::ptr::eq(tree, &DOUBLE)));
+    assert!(DOUBLE.read_in(&SINGLE, |tree| core::ptr::eq(tree, &SINGLE)));
+
+    let q = SVector::from([Dual { value: 0.3, tangent: 1.0 }]);
+    let energy = DOUBLE.read_in(&SINGLE, |tree| tree.potential_energy(&q));
+    close_numbers(energy.value, 9.81 * (2.0 * 0.3 + 1.2 * 0.3_f64.sin()), TOLERANCE); // m·g·z of the centre of mass
+    close_numbers(energy.tangent, 9.81 * 1.2 * 0.3_f64.cos(), TOLERANCE);
+    let m = DOUBLE.read_in(&SINGLE, |tree| tree.mass_matrix(&q));
+    close_numbers(m[0].value, 0.8 + 0.1, TOLERANCE);
 }
 
 /// Unoptimised, and with the results (up to 240 kB) on the same stack.

@@ -5,8 +5,6 @@ use dynamics_core::__private::recursion::{Drive, Joint, Tree};
 use dynamics_core::lanes::{Lanes, f64x2, f64x4, f64x8};
 use dynamics_core::prelude::*;
 
-#[cfg(feature = "simd")]
-use super::robots::lifted;
 use super::robots::{Robot, Shape};
 use super::{TOLERANCE, close, with_stack};
 #[cfg(feature = "simd")]
@@ -22,7 +20,7 @@ fn driven_directly<const NL: usize, const NQ: usize, const N: usize>(
     let mut robot = Robot::random(joints, shape, seed);
     for (k, link) in robot.tree.links.iter_mut().enumerate() {
         if let Joint::Revolute(drive, _) | Joint::Prismatic(drive, _) = &mut link.joint {
-            *drive = Drive::own(NQ - NL + k, N - NL + k);
+            *drive = Drive { q: NQ - NL + k, v: N - NL + k, ratio: 1.0, offset: 0.0 };
         }
     }
     robot
@@ -76,7 +74,7 @@ fn each_state_has_the_bits_of_one<
     let mut vectors =
         || -> Vec<SVector<f64, N>> { (0..L::COUNT).map(|_| random_vector(random, 2.0)).collect() };
     let (v, a) = (vectors(), vectors());
-    let wide = lifted::<L, NL, NQ, N>(&robot.tree);
+    let wide = robot.tree.lifted::<L>();
     let (wide, single) = (wide.in_lanes(), robot.tree.in_lanes());
     let wide_q = in_lanes_of::<L, NQ, 1>(&q);
     let [wide_v, wide_a] = [&v, &a].map(|x| in_lanes_of::<L, N, 1>(x));

@@ -54,5 +54,10 @@ crate::robot! {
 
 #[test]
 fn matrices_are_in_lanes() {
-    assert!(crate::generated(&entry()).contains("self.__table().in_lanes()."));
+    let text = crate::generated(&entry());
+    assert!(text.contains("self.__table(|table| table.in_lanes()."));
+    assert!(
+        text.contains("static DOUBLE: recursion::Tree<f64, "),
+        "its numbers stand in memory that is never written"
+    );
 }

@@ -151,7 +151,7 @@ fn by_table(method: Method, in_lanes: bool, scalar: &str, sizes: Sizes) -> Strin
     let arguments = typed_arguments(method, scalar, sizes);
     let lanes = if in_lanes { ".in_lanes()" } else { "" };
     format!(
-        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table(){lanes}.{0}({2})\n    }}\n",
+        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table(|table| table{lanes}.{0}({2}))\n    }}\n",
         method.name(),
         return_type(method, scalar, sizes),
         pass_on(method)
@@ -179,7 +179,7 @@ fn frame_by_table(
     text.push_str(&bindings(method, context, &body));
     let _ = writeln!(
         text,
-        "        robot.__table().{}({link:?}, [{}], [{}], {})\n    }}",
+        "        robot.__table(|table| table.{}({link:?}, [{}], [{}], {}))\n    }}",
         method.name(),
         rows.join(", "),
         entries[9..].join(", "),

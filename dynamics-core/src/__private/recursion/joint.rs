@@ -75,11 +75,6 @@ impl<T: Scalar> Link<T> {
 }
 
 impl<T: Scalar> Drive<T> {
-    /// That of a joint with a coordinate and a speed of its own.
-    pub fn own(q: usize, v: usize) -> Self {
-        Self { q, v, ratio: T::one(), offset: T::zero() }
-    }
-
     /// Where the joint is.
     pub(super) fn position(&self, q: &[T]) -> T {
         self.ratio.mul_add(entry(q, self.q), self.offset)

@@ -94,12 +94,6 @@ impl<T: Scalar> Drive<T> {
 }
 
 impl<T: Scalar> Passive<T> {
-    /// Nothing.
-    pub fn none() -> Self {
-        let o = T::zero();
-        Self { armature: o, damping: o, friction: None, stiffness: o, rest: o }
-    }
-
     fn force(&self, position: T, speed: T) -> T {
         let friction = self.friction.map_or_else(T::zero, |friction| friction.force(speed));
         self.damping * speed + friction + self.stiffness * (position - self.rest)
