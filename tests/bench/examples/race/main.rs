@@ -66,6 +66,7 @@ fn main() -> ExitCode {
             })
         })
         .collect();
+    tables::write(folder, "short", &tables::short(robots, &rows));
     tables::write(folder, "race", &tables::race(&rows, times.gigahertz()));
     tables::write(folder, "lanes", &tables::lanes(&rows, &times));
     tables::write(folder, "generic", &tables::generic(robots, &times));
