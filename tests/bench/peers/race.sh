@@ -19,7 +19,7 @@ out=$target/race
 
 run "$target/release/examples/race" build/bench "$ours" "$target/release/examples/ours" "$batch" "$out" "$@"
 [ $# -eq 0 ] || exit 0
-for table in race agreement lanes generic bundles; do
+for table in short race agreement lanes generic bundles; do
     ../compare.sh "$table" < "$out/$table.md" > /dev/null
 done
 ../compare.sh short README.md < "$out/short.md" > /dev/null

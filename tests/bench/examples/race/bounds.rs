@@ -11,6 +11,9 @@ use dynamics_codegen::symbolic::Graph;
 /// How many scalar additions, products or fused products a core begins in a cycle.
 const PIPES: f64 = 2.0;
 
+/// How many of them are one instruction where loops run in lanes: registers of 256 bits, as the table of lanes counts, too.
+const LANES: f64 = 4.0;
+
 /// In cycles, or at a clock in nanoseconds.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bound {
@@ -61,9 +64,9 @@ pub(crate) fn of(robot: &str) -> BTreeMap<&'static str, Bound> {
             in_a_lane: cycles(program.one_by_one().instructions()),
         },
         _ => {
-            // Almost every product in the loops has its sum.
-            let operations = cycles(cost.multiplications.max(cost.additions));
-            Bound { operations, chain: None, in_a_lane: operations }
+            // Almost every product in the loops has its sum, and they run in lanes over rows, columns or links.
+            let one_by_one = cycles(cost.multiplications.max(cost.additions));
+            Bound { operations: one_by_one / LANES, chain: None, in_a_lane: one_by_one }
         }
     };
     let methods = compiled.methods.iter();
