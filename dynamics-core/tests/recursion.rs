@@ -12,11 +12,11 @@ mod robots;
 
 use crate::common::dual::Dual;
 use crate::common::{random_numbers, random_vector};
-use dynamics_core::__private::recursion::{Drive, Joint, Link, Masses, Passive, Tree};
+use dynamics_core::__private::recursion::{Drive, Joint, Link, Masses, Passive, Tree, same};
 use dynamics_core::prelude::*;
 
 use laws::for_each_state;
-use robots::{AXES, Robot, Shape};
+use robots::{AXES, Robot, Shape, lifted};
 
 /// Roundings of long sums, relative to the largest entry.
 const TOLERANCE: f64 = 1e-11;
@@ -46,7 +46,7 @@ fn with_stack(bytes: usize, run: impl FnOnce() + Send + 'static) {
 #[test]
 fn single_precision_agrees_with_double() {
     for_each_state::<18, 34, 30>("FRBPuPRfBRFuRusppR", |robot, (q, v, tau)| {
-        let single = robot.tree.lifted::<f32>();
+        let single = lifted::<f32, 18, 34, 30>(&robot.tree);
         let (q32, v32, tau32) = (q.map(|x| x as f32), v.map(|x| x as f32), tau.map(|x| x as f32));
         let a = single.inverse_dynamics(&q32, &v32, &tau32).map(f64::from);
         close(&a, &robot.tree.inverse_dynamics(&q, &v, &tau), 1e-4);
@@ -55,43 +55,53 @@ fn single_precision_agrees_with_double() {
     });
 }
 
-/// A pendulum in memory that is never written.
+/// A pendulum whose numbers `of` makes of those that are written.
 macro_rules! pendulum {
-    () => {
+    ($of:path) => {
         Tree {
             links: [Link {
                 parent: None,
                 joint: Joint::Revolute(
-                    Drive { q: 0, v: 0, ratio: 1.0, offset: 0.0 },
-                    Passive { armature: 0.1, damping: 0.0, friction: None, stiffness: 0.0, rest: 0.0 },
+                    Drive { q: 0, v: 0, ratio: $of(1.0), offset: $of(0.0) },
+                    Passive {
+                        armature: $of(0.1),
+                        damping: $of(0.0),
+                        friction: None,
+                        stiffness: $of(0.0),
+                        rest: $of(0.0),
+                    },
                 ),
-                rotation: [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]],
-                position: [0.0, 0.0, 0.3],
+                rotation: [
+                    [$of(1.0), $of(0.0), $of(0.0)],
+                    [$of(0.0), $of(0.0), $of(-1.0)],
+                    [$of(0.0), $of(1.0), $of(0.0)],
+                ],
+                position: [$of(0.0), $of(0.0), $of(0.3)],
             }],
             masses: Masses {
-                mass: [2.0],
-                first: [[1.2], [0.0], [0.0]],
-                second: [[0.8], [0.0], [0.0], [0.0], [0.0], [0.0]],
+                mass: [$of(2.0)],
+                first: [[$of(1.2)], [$of(0.0)], [$of(0.0)]],
+                second: [[$of(0.8)], [$of(0.0)], [$of(0.0)], [$of(0.0)], [$of(0.0)], [$of(0.0)]],
             },
-            base_mass: 0.0,
-            base_first: [0.0, 0.0, 0.0],
-            gravity: [0.0, 0.0, -9.81],
+            base_mass: $of(0.0),
+            base_first: [$of(0.0); 3],
+            gravity: [$of(0.0), $of(0.0), $of(-9.81)],
         }
     };
 }
 
 #[test]
-fn a_constant_tree_is_read_where_it_stands_or_in_another_scalar() {
-    static DOUBLE: Tree<f64, 1, 1, 1> = pendulum!();
-    static SINGLE: Tree<f32, 1, 1, 1> = pendulum!();
-    assert!(DOUBLE.read_in(&SINGLE, |tree| core::ptr::eq(tree, &DOUBLE)));
-    assert!(DOUBLE.read_in(&SINGLE, |tree| core::ptr::eq(tree, &SINGLE)));
+fn a_constant_tree_is_read_where_it_stands_or_filled_for_another_scalar() {
+    static DOUBLE: Tree<f64, 1, 1, 1> = pendulum!(same);
+    static SINGLE: Tree<f32, 1, 1, 1> = pendulum!(same);
+    assert!(DOUBLE.read_in(&SINGLE, || unreachable!(), |tree| core::ptr::eq(tree, &DOUBLE)));
+    assert!(DOUBLE.read_in(&SINGLE, || unreachable!(), |tree| core::ptr::eq(tree, &SINGLE)));
 
     let q = SVector::from([Dual { value: 0.3, tangent: 1.0 }]);
-    let energy = DOUBLE.read_in(&SINGLE, |tree| tree.potential_energy(&q));
+    let energy = DOUBLE.read_in(&SINGLE, || pendulum!(Dual::of), |tree| tree.potential_energy(&q));
     close_numbers(energy.value, 9.81 * (2.0 * 0.3 + 1.2 * 0.3_f64.sin()), TOLERANCE); // m·g·z of the centre of mass
     close_numbers(energy.tangent, 9.81 * 1.2 * 0.3_f64.cos(), TOLERANCE);
-    let m = DOUBLE.read_in(&SINGLE, |tree| tree.mass_matrix(&q));
+    let m = DOUBLE.read_in(&SINGLE, || pendulum!(Dual::of), |tree| tree.mass_matrix(&q));
     close_numbers(m[0].value, 0.8 + 0.1, TOLERANCE);
 }
 

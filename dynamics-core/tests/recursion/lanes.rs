@@ -5,6 +5,8 @@ use dynamics_core::__private::recursion::{Drive, Joint, Tree};
 use dynamics_core::lanes::{Lanes, f64x2, f64x4, f64x8};
 use dynamics_core::prelude::*;
 
+#[cfg(feature = "simd")]
+use super::robots::lifted;
 use super::robots::{Robot, Shape};
 use super::{TOLERANCE, close, with_stack};
 #[cfg(feature = "simd")]
@@ -74,7 +76,7 @@ fn each_state_has_the_bits_of_one<
     let mut vectors =
         || -> Vec<SVector<f64, N>> { (0..L::COUNT).map(|_| random_vector(random, 2.0)).collect() };
     let (v, a) = (vectors(), vectors());
-    let wide = robot.tree.lifted::<L>();
+    let wide = lifted::<L, NL, NQ, N>(&robot.tree);
     let (wide, single) = (wide.in_lanes(), robot.tree.in_lanes());
     let wide_q = in_lanes_of::<L, NQ, 1>(&q);
     let [wide_v, wide_a] = [&v, &a].map(|x| in_lanes_of::<L, N, 1>(x));

@@ -4,7 +4,7 @@ use dynamics_core::__private::recursion::Passive;
 use dynamics_core::nalgebra::{Rotation3, Vector3};
 use dynamics_core::prelude::*;
 
-use super::robots::{Robot, Shape, rows};
+use super::robots::{Robot, Shape, lifted, rows};
 use super::{TOLERANCE, TOLERANCE_OF_SOLUTIONS, close, close_numbers, with_stack};
 use crate::common::dual::{Dual, moving, resting, tangent};
 use crate::common::{random_numbers, random_vector};
@@ -63,7 +63,7 @@ fn passive_forces<const NL: usize, const NQ: usize, const NV: usize>(joints: &st
             power += drive.ratio * rate[drive.v] * spring;
             forces[drive.v] += drive.ratio * (spring + resistance(&passive, drive.ratio * v[drive.v]));
         }
-        let dual = robot.tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         close(&robot.tree.passive_forces(&q, &v), &forces, TOLERANCE);
         close_numbers(robot.tree.elastic_energy(&q), energy, TOLERANCE);
         close_numbers(dual.elastic_energy(&robot.flow(&q, &rate)).tangent, power, TOLERANCE);
@@ -81,7 +81,7 @@ fn resistance(passive: &Passive<f64>, speed: f64) -> f64 {
 /// symbols are what is left of it between joints of one degree of freedom.
 fn levi_civita<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, _)| {
-        let dual = robot.tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         let unit = |k: usize| SVector::<f64, NV>::from_fn(|i, _| if i == k { 1.0 } else { 0.0 });
         let slopes: Vec<_> = (0..NV).map(|k| tangent(&dual.mass_matrix(&robot.flow(&q, &unit(k))))).collect();
         let m = robot.tree.mass_matrix(&q);
@@ -110,7 +110,7 @@ fn equations<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
         let bias = coriolis_matrix * v + gravity_forces + tree.passive_forces(&q, &v);
         close(&tree.bias_forces(&q, &v), &bias, TOLERANCE);
         close(&tree.inverse_dynamics(&q, &v, &a), &(mass_matrix * a + bias), TOLERANCE);
-        let rate = tangent(&tree.lifted::<Dual>().mass_matrix(&robot.flow(&q, &v)));
+        let rate = tangent(&lifted::<Dual, NL, NQ, NV>(tree).mass_matrix(&robot.flow(&q, &v)));
         close(&(coriolis_matrix + coriolis_matrix.transpose()), &rate, TOLERANCE);
     });
 }
@@ -118,7 +118,7 @@ fn equations<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
 /// The derivatives of inverse dynamics along random directions.
 fn inverse_derivatives<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, a)| {
-        let dual = robot.tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         let direction = random_vector(&mut random_numbers(7), 1.0);
         let InverseDynamicsDerivatives { dtau_dq, dtau_dv, dtau_da } =
             robot.tree.inverse_dynamics_derivatives(&q, &v, &a);
@@ -140,7 +140,7 @@ fn forward<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
         let error = (tree.inverse_dynamics(&q, &v, &a) - tau).amax();
         assert!(error <= TOLERANCE * scale, "{error:e} of {scale:e}");
 
-        let dual = tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(tree);
         let direction = random_vector(&mut random_numbers(8), 1.0);
         let ForwardDynamicsDerivatives { da_dq, da_dv, da_dtau } =
             tree.forward_dynamics_derivatives(&q, &v, &tau);
@@ -161,7 +161,7 @@ fn power<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, tau)| {
         let a = robot.tree.forward_dynamics(&q, &v, &tau);
         let (flow, rate) = (robot.flow(&q, &v), moving(&v, &a));
-        let dual = robot.tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         let (kinetic, elastic) = (dual.kinetic_energy(&flow, &rate), dual.elastic_energy(&flow));
         let stored = kinetic.tangent + elastic.tangent + dual.potential_energy(&flow).tangent;
         let heat = robot.driven().map(|(drive, passive)| {
@@ -197,7 +197,7 @@ fn centroid<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
 /// in the world.
 fn frames<const NL: usize, const NQ: usize, const NV: usize>(joints: &str) {
     for_each_state::<NL, NQ, NV>(joints, |robot, (q, v, a)| {
-        let dual = robot.tree.lifted::<Dual>();
+        let dual = lifted::<Dual, NL, NQ, NV>(&robot.tree);
         let rotation = Rotation3::from_euler_angles(0.3, -1.1, 2.0);
         let (rotation, translation) = (rows(rotation.matrix()), [0.2, -0.5, 0.4]);
         let dual_rotation = rotation.map(|row| row.map(Dual::of));

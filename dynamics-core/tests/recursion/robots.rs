@@ -284,3 +284,38 @@ impl<const NL: usize, const NQ: usize, const NV: usize> AddPoint for Tree<f64, N
         masses.second.iter_mut().zip(products).for_each(|(sigma, x)| sigma[owner] += m * x);
     }
 }
+
+/// The robot in another scalar.
+pub(crate) fn lifted<T: Scalar, const NL: usize, const NQ: usize, const NV: usize>(
+    tree: &Tree<f64, NL, NQ, NV>,
+) -> Tree<T, NL, NQ, NV> {
+    let drive = |d: Drive<f64>| Drive { q: d.q, v: d.v, ratio: T::of(d.ratio), offset: T::of(d.offset) };
+    let passive = |p: Passive<f64>| Passive {
+        armature: T::of(p.armature),
+        damping: T::of(p.damping),
+        friction: p.friction.map(|f| Friction { force: T::of(f.force), speed: T::of(f.speed) }),
+        stiffness: T::of(p.stiffness),
+        rest: T::of(p.rest),
+    };
+    Tree {
+        links: tree.links.map(|link| Link {
+            parent: link.parent,
+            joint: match link.joint {
+                Joint::Revolute(d, p) => Joint::Revolute(drive(d), passive(p)),
+                Joint::Prismatic(d, p) => Joint::Prismatic(drive(d), passive(p)),
+                Joint::Ball { q, v } => Joint::Ball { q, v },
+                Joint::Free { q, v } => Joint::Free { q, v },
+            },
+            rotation: link.rotation.map(|row| row.map(T::of)),
+            position: link.position.map(T::of),
+        }),
+        masses: Masses {
+            mass: tree.masses.mass.map(T::of),
+            first: tree.masses.first.map(|x| x.map(T::of)),
+            second: tree.masses.second.map(|x| x.map(T::of)),
+        },
+        base_mass: T::of(tree.base_mass),
+        base_first: tree.base_first.map(T::of),
+        gravity: tree.gravity.map(T::of),
+    }
+}

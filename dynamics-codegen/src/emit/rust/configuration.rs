@@ -170,7 +170,7 @@ impl Emitter<'_, '_> {
     fn number(&self, value: &str) -> String {
         match self.literals() {
             super::context::Literals::Plain => value.to_owned(),
-            super::context::Literals::Of(scalar) => format!("{scalar}::of({value})"),
+            super::context::Literals::Of(function) => format!("{function}({value})"),
         }
     }
 

@@ -25,7 +25,7 @@ const SINES: usize = 4;
 pub(super) enum Literals {
     /// `0.42`
     Plain,
-    /// `T::of(0.42)`
+    /// `T::of(0.42)`, by this function.
     Of(String),
 }
 
@@ -69,7 +69,7 @@ impl Language for Context<'_> {
     fn constant(&self, value: f64) -> (String, Binding) {
         let number = format!("{value:?}");
         match &self.literals {
-            Literals::Of(scalar) => (format!("{scalar}::of({number})"), Binding::Atom),
+            Literals::Of(function) => (format!("{function}({number})"), Binding::Atom),
             Literals::Plain if value < 0.0 => (number, Binding::Negation),
             Literals::Plain => (number, Binding::Atom),
         }

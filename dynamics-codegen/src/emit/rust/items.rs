@@ -158,7 +158,7 @@ impl<'m, 'g> Emitter<'m, 'g> {
     pub(super) fn literals(&self) -> Literals {
         match self.item.form {
             Form::Concrete(_) => Literals::Plain,
-            _ => Literals::Of(self.scalar.clone()),
+            _ => Literals::Of(format!("{}::of", self.scalar)),
         }
     }
 

@@ -31,15 +31,15 @@ impl Emitter<'_, '_> {
              fn __table<{generics}__R>(&self, read: impl FnOnce(&recursion::Tree<{scalar}, {sizes}>) -> __R) -> __R {{"
         );
         if body.fields.is_empty() {
-            let plain = Context { literals: Literals::Plain, ..context };
-            let tree = self.tree(&body::write(program, &[], &plain, 5).results, 5);
+            let by_function = Context { literals: Literals::Of("$of".to_owned()), ..context };
+            let tree = self.tree(&body::write(program, &[], &by_function, 5).results, 5);
             let _ = writeln!(
                 text,
-                "            macro_rules! table {{\n                () => {{\n                    {tree}\n                }};\n            }}\n            \
-                 static DOUBLE: recursion::Tree<f64, {sizes}> = table!();\n            \
+                "            macro_rules! table {{\n                ($of:path) => {{\n                    {tree}\n                }};\n            }}\n            \
+                 static DOUBLE: recursion::Tree<f64, {sizes}> = table!(recursion::same);\n            \
                  #[allow(overflowing_literals, reason = \"they round to infinity\")]\n            \
-                 static SINGLE: recursion::Tree<f32, {sizes}> = table!();\n            \
-                 DOUBLE.read_in(&SINGLE, read)"
+                 static SINGLE: recursion::Tree<f32, {sizes}> = table!(recursion::same);\n            \
+                 DOUBLE.read_in(&SINGLE, || table!({scalar}::of), read)"
             );
         } else {
             text.push_str(&methods::fields_binding(&context, &body, "Self", "self", 3));

@@ -1,8 +1,8 @@
 //! The dynamics of a tree of links by recursion over a table of its links.
 //!
 //! For robots so large that straight-line code would be too long: the generated code has the table, or fills it from
-//! the robot's fields, and calls this. Every vector is in world axes, every moment about the origin of its own link's frame; so that nothing
-//! is turned between links and no precision is lost far from the world's origin. Nothing compares scalars. A
+//! the robot's fields, and calls this. Every vector is in world axes, every moment about the origin of its own link's
+//! frame; so that nothing is turned between links and no precision is lost far from the world's origin. Nothing compares scalars. A
 //! `parent` that is not smaller than the link's own index counts as the world; a coordinate or a speed that is
 //! not there is zero, and nothing is written to it.
 //!
@@ -32,6 +32,7 @@ mod vector;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
 
+pub use constant::same;
 pub use lanes::InLanes;
 
 /// A robot of `NL` moving links with `NQ` coordinates and `NV` speeds.
