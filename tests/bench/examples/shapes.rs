@@ -9,13 +9,27 @@ use dynamics_bench::contest::{least, states};
 use dynamics_bench::models::chain32::Chain32;
 use dynamics_core::prelude::*;
 
+/// A robot with what its traits require and the table has: without frames, momenta and regressors, which nobody asks for here
+/// and which would be expanded and checked all the same.
+macro_rules! measured {
+    ($($item:tt)*) => {
+        #[derive(Dynamics)]
+        #[dynamics(outputs(
+            mass_matrix, inverse_mass_matrix, coriolis_matrix, gravity_forces, bias_forces, inverse_dynamics, forward_dynamics,
+            kinetic_energy, potential_energy, lagrangian, inverse_dynamics_derivatives, forward_dynamics_derivatives
+        ))]
+        $($item)*
+    };
+}
+
 /// A chain of which some joints at the tip are locked.
 macro_rules! chain {
     ($name:ident without $($joint:ident)*) => {
-        #[derive(Dynamics)]
-        #[dynamics(urdf = "robots/chain32.urdf")]
-        $(#[joint($joint, locked = 0)])*
-        struct $name;
+        measured! {
+            #[dynamics(urdf = "robots/chain32.urdf")]
+            $(#[joint($joint, locked = 0)])*
+            struct $name;
+        }
     };
 }
 
@@ -27,18 +41,19 @@ chain!(Chain28 without joint29 joint30 joint31 joint32);
 /// Legs of three joints on a trunk that nothing holds.
 macro_rules! walker {
     ($name:ident: $($hip:ident $thigh:ident $shin:ident, $upper:ident $lower:ident $foot:ident at [$($at:tt)*];)*) => {
-        #[derive(Dynamics)]
-        #[joint(base: free, world -> trunk)]
-        #[body(trunk, mass = 12, com = [0.01, 0, 0.02], inertia = tensor(0.2, 0.001, 0.002, 0.4, 0.0003, 0.5))]
-        $(
-            #[joint($hip: revolute(z), trunk -> $upper, at = [$($at)*])]
-            #[body($upper, mass = 0.9, com = [0.02, 0.01, 0], inertia = diag(0.001, 0.002, 0.002))]
-            #[joint($thigh: revolute(y), $upper -> $lower, at = [0.05, 0, 0])]
-            #[body($lower, mass = 1.1, com = [0.08, 0, 0.01], inertia = diag(0.001, 0.004, 0.004))]
-            #[joint($shin: revolute(y), $lower -> $foot, at = [0.2, 0, 0])]
-            #[body($foot, mass = 0.5, com = [0.1, 0, -0.02], inertia = diag(0.0005, 0.003, 0.003))]
-        )*
-        struct $name;
+        measured! {
+            #[joint(base: free, world -> trunk)]
+            #[body(trunk, mass = 12, com = [0.01, 0, 0.02], inertia = tensor(0.2, 0.001, 0.002, 0.4, 0.0003, 0.5))]
+            $(
+                #[joint($hip: revolute(z), trunk -> $upper, at = [$($at)*])]
+                #[body($upper, mass = 0.9, com = [0.02, 0.01, 0], inertia = diag(0.001, 0.002, 0.002))]
+                #[joint($thigh: revolute(y), $upper -> $lower, at = [0.05, 0, 0])]
+                #[body($lower, mass = 1.1, com = [0.08, 0, 0.01], inertia = diag(0.001, 0.004, 0.004))]
+                #[joint($shin: revolute(y), $lower -> $foot, at = [0.2, 0, 0])]
+                #[body($foot, mass = 0.5, com = [0.1, 0, -0.02], inertia = diag(0.0005, 0.003, 0.003))]
+            )*
+            struct $name;
+        }
     };
 }
 
@@ -65,24 +80,25 @@ macro_rules! arms {
         [$($at:tt)*] $a:ident $b:ident $c:ident $d:ident $e:ident $f:ident $g:ident,
         $k:ident $l:ident $m:ident $n:ident $o:ident $p:ident $q:ident;
     )*) => {
-        #[derive(Dynamics)]
-        $(
-            #[joint($a: revolute(z), world -> $k, at = [$($at)*])]
-            #[body($k, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
-            #[joint($b: revolute(y), $k -> $l, at = [0, 0, 0.2])]
-            #[body($l, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
-            #[joint($c: revolute(z), $l -> $m, at = [0, 0, 0.2])]
-            #[body($m, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
-            #[joint($d: revolute(y), $m -> $n, at = [0, 0, 0.2])]
-            #[body($n, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
-            #[joint($e: revolute(z), $n -> $o, at = [0, 0, 0.2])]
-            #[body($o, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
-            #[joint($f: revolute(y), $o -> $p, at = [0, 0, 0.2])]
-            #[body($p, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
-            #[joint($g: revolute(z), $p -> $q, at = [0, 0, 0.1])]
-            #[body($q, mass = 0.5, com = [0.01, 0, 0.02], inertia = diag(0.001, 0.001, 0.001))]
-        )*
-        struct $name;
+        measured! {
+            $(
+                #[joint($a: revolute(z), world -> $k, at = [$($at)*])]
+                #[body($k, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
+                #[joint($b: revolute(y), $k -> $l, at = [0, 0, 0.2])]
+                #[body($l, mass = 4, com = [0, 0.01, 0.1], inertia = diag(0.03, 0.03, 0.01))]
+                #[joint($c: revolute(z), $l -> $m, at = [0, 0, 0.2])]
+                #[body($m, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
+                #[joint($d: revolute(y), $m -> $n, at = [0, 0, 0.2])]
+                #[body($n, mass = 3, com = [0.01, 0, 0.1], inertia = diag(0.02, 0.02, 0.01))]
+                #[joint($e: revolute(z), $n -> $o, at = [0, 0, 0.2])]
+                #[body($o, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
+                #[joint($f: revolute(y), $o -> $p, at = [0, 0, 0.2])]
+                #[body($p, mass = 2, com = [0, 0.02, 0.1], inertia = diag(0.01, 0.01, 0.005))]
+                #[joint($g: revolute(z), $p -> $q, at = [0, 0, 0.1])]
+                #[body($q, mass = 0.5, com = [0.01, 0, 0.02], inertia = diag(0.001, 0.001, 0.001))]
+            )*
+            struct $name;
+        }
     };
 }
 
@@ -100,14 +116,15 @@ macro_rules! bodies {
     ($name:ident, $root:ident by $base:ident $(($axis:ident))?:
         $($joint:ident $about:ident $parent:ident $body:ident [$($at:tt)*] [$($rpy:tt)*];)*
     ) => {
-        #[derive(Dynamics)]
-        #[joint(base: $base $(($axis))?, world -> $root)]
-        #[body($root, mass = 6, com = [0.01, 0, 0.02], inertia = tensor(0.08, 0.001, 0.002, 0.09, 0.0003, 0.1))]
-        $(
-            #[joint($joint: revolute($about), $parent -> $body, at = [$($at)*], rpy = [$($rpy)*])]
-            #[body($body, mass = 1.5, com = [0.01, 0.02, 0.1], inertia = tensor(0.012, 0.0001, 0.0002, 0.023, 0.0003, 0.02))]
-        )*
-        struct $name;
+        measured! {
+            #[joint(base: $base $(($axis))?, world -> $root)]
+            #[body($root, mass = 6, com = [0.01, 0, 0.02], inertia = tensor(0.08, 0.001, 0.002, 0.09, 0.0003, 0.1))]
+            $(
+                #[joint($joint: revolute($about), $parent -> $body, at = [$($at)*], rpy = [$($rpy)*])]
+                #[body($body, mass = 1.5, com = [0.01, 0.02, 0.1], inertia = tensor(0.012, 0.0001, 0.0002, 0.023, 0.0003, 0.02))]
+            )*
+            struct $name;
+        }
     };
 }
 
