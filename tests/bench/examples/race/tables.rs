@@ -74,7 +74,7 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
         let is_met = of_mark.is_some_and(|of_mark| of_mark <= 1.0);
         met += usize::from(is_met);
         within_chain += usize::from(!is_met && ours <= row.bound.chain);
-        if [pinocchio, casadi].into_iter().any(|peer| times(peer).is_some_and(|times| times < 1.0)) {
+        if row.times_as_fast().is_some_and(|times| times < 1.0) {
             behind.push(format!("{} of {}", row.output, row.robot));
         }
         let verdict = match of_mark {
