@@ -58,8 +58,9 @@ pub fn mass_matrix<S: Scalar>(tree: &NormalTree<S>, q: &[S]) -> Square<S> {
 pub fn coriolis_matrix<S: Scalar>(tree: &NormalTree<S>, q: &[S], qd: &[S]) -> Square<S> {
     let joints = tree.place(q);
     let velocity = velocities(tree, &joints, qd);
-    let bodies = Bodies::new(tree, joints, &velocity);
-    bodies.coriolis_matrix(&velocity)
+    let momenta = composite_momenta(tree, &joints, &velocity, S::one());
+    let bodies = Bodies::new(tree, joints, momenta);
+    bodies.velocity_matrix(&velocity)
 }
 
 /// `∂τ/∂q` and `∂τ/∂v` of inverse dynamics, of the columns, without passive forces.
@@ -85,14 +86,12 @@ pub fn inverse_dynamics_derivatives<S: Scalar>(
     let velocity = velocities(tree, &joints, qd);
     let carrier = carriers(tree, &joints, &acceleration);
     let carrier_velocity = carrier_velocities(tree, &joints, &velocity);
-    let mean: Vec<_> =
-        velocity.iter().zip(&carrier_velocity).map(|(own, carrier)| own.mean(*carrier)).collect();
-    let bodies = Bodies::new(tree, joints, &velocity);
-    let dtau_dv =
-        bodies.coriolis_matrix(&mean).iter().map(|row| row.iter().map(|x| x.twice()).collect()).collect();
+    let sums: Vec<_> = velocity.iter().zip(&carrier_velocity).map(|(own, carrier)| *own + *carrier).collect();
+    let twice = composite_momenta(tree, &joints, &velocity, S::from(2));
+    let bodies = Bodies::new(tree, joints, twice);
     InverseDynamicsDerivatives {
         dtau_dq: bodies.stiffness_matrix(&carrier_velocity, &carrier, &wrenches),
-        dtau_dv,
+        dtau_dv: bodies.velocity_matrix(&sums),
     }
 }
 
@@ -108,6 +107,7 @@ struct Bodies<'t, S> {
     tree: &'t NormalTree<S>,
     joints: Vec<PlacedJoint<S>>,
     inertia: Vec<PseudoInertia<S>>,
+    /// `𝔹`, or twice that.
     weighted: Vec<Weighted<S>>,
 }
 
@@ -118,29 +118,27 @@ impl<S: Scalar> Twist<S> {
 }
 
 impl<'t, S: Scalar> Bodies<'t, S> {
-    fn new(tree: &'t NormalTree<S>, joints: Vec<PlacedJoint<S>>, velocity: &[LinkVelocity<S>]) -> Self {
+    fn new(tree: &'t NormalTree<S>, joints: Vec<PlacedJoint<S>>, weighted: Vec<Weighted<S>>) -> Self {
         let inertia = composite_inertias(tree, &joints);
-        let weighted = composite_momenta(tree, &joints, velocity);
         Self { tree, joints, inertia, weighted }
     }
 
-    /// `tr(Ŝ_i (𝕁 [V_j, S_j]^ᵀ + 𝔹 Ŝ_jᵀ))` with the `V` of each link given: C with the links' own velocities, half
-    /// of ∂τ/∂v with their means.
-    fn coriolis_matrix(&self, carrier: &[LinkVelocity<S>]) -> Square<S> {
+    /// `tr(Ŝ_i (𝕁 [V_j, S_j]^ᵀ + 𝔹 Ŝ_jᵀ))` with the `V` of each link given: C with the links' own velocities, ∂τ/∂v
+    /// with these and their parents' added up, and `2𝔹`.
+    fn velocity_matrix(&self, carrier: &[LinkVelocity<S>]) -> Square<S> {
         let columns = self.tree.columns.iter();
         let changes = columns.map(|column| {
             let twist = column.direction.twist();
             Change {
                 by_moments: carrier[column.link].twist().carries(twist),
                 by_momenta: twist.angular,
-                times: S::one(),
                 by_wrench: Wrench::zero(),
             }
         });
         self.matrix(&changes.collect::<Vec<_>>())
     }
 
-    /// `∂τ/∂q`, given the motion that carries each joint and the wrench on each composite body.
+    /// `∂τ/∂q` with `2𝔹`, given the motion that carries each joint and the wrench on each composite body.
     fn stiffness_matrix(
         &self,
         velocity: &[LinkVelocity<S>],
@@ -155,7 +153,6 @@ impl<'t, S: Scalar> Bodies<'t, S> {
             Change {
                 by_moments: second_rate(velocity, rate, &carrier[column.link], twist),
                 by_momenta: rate.angular,
-                times: S::from(2),
                 by_wrench: turned_wrench(wrenches[column.link], twist),
             }
         });
@@ -170,14 +167,14 @@ impl<'t, S: Scalar> Bodies<'t, S> {
         for (j, (outer, change)) in tree.columns.iter().zip(changes).enumerate() {
             let body = outer.link;
             let mut column = wrench_of(&self.inertia[body], change.by_moments)
-                + self.weighted[body].wrench_of(change.by_momenta, change.times)
+                + self.weighted[body].wrench_of(change.by_momenta)
                 + change.by_wrench;
             let mut row = wrench_of(&self.inertia[body], outer.direction.twist());
             let mut nu = self.weighted[body].row_of(outer.direction.twist());
             for link in tree.path_to_base(body) {
                 for k in tree.columns_of(link) {
-                    let Change { by_moments, by_momenta, times, .. } = changes[k];
-                    matrix[j][k] = by_moments.paired_with(row) + nu.dot(by_momenta) * times;
+                    let Change { by_moments, by_momenta, .. } = changes[k];
+                    matrix[j][k] = by_moments.paired_with(row) + nu.dot(by_momenta);
                     if link != body {
                         matrix[k][j] = column.along(tree.columns[k].direction);
                     }
@@ -199,15 +196,13 @@ struct Change<S> {
     by_moments: Twist<S>,
     /// What `𝔹` is applied to: only the turn counts.
     by_momenta: Vector3<S>,
-    /// How often.
-    times: S,
     /// What the wrench on the composite becomes.
     by_wrench: Wrench<S>,
 }
 
 impl<S: Scalar> Weighted<S> {
-    /// The wrench of `𝔹 ŝᵀ`: `tr(B)·s − Bᵀs` and `s × b`, as often as said.
-    fn wrench_of(&self, s: Vector3<S>, times: S) -> Wrench<S> {
+    /// The wrench of `𝔹 ŝᵀ`: `tr(B)·s − Bᵀs` and `s × b`.
+    fn wrench_of(&self, s: Vector3<S>) -> Wrench<S> {
         let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = self.B.0;
         let [x, y, z] = s.0;
         let N = Vector3::new(
@@ -215,7 +210,7 @@ impl<S: Scalar> Weighted<S> {
             (xx + zz) * y - xy * x - zy * z,
             (xx + yy) * z - xz * x - yz * y,
         );
-        Wrench { N: N.scale(times), F: s.cross(self.b).scale(times) }
+        Wrench { N, F: s.cross(self.b) }
     }
 
     /// `ν` with `tr(Ŝ 𝔹 ŝᵀ) = ν·s` for a turn `s` nearer to the base.
@@ -290,15 +285,16 @@ fn moments_up<S: Scalar>(body: PseudoInertia<S>, joint: &PlacedJoint<S>) -> Pseu
     PseudoInertia { mass: body.mass, first: first + p.scale(body.mass), second: second + shifted }
 }
 
-/// `𝔹` of all that hangs on each joint, in the link's frame.
+/// `𝔹` of all that hangs on each joint, in the link's frame, so many times: of the links' own moments, which are numbers.
 fn composite_momenta<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
     velocity: &[LinkVelocity<S>],
+    times: S,
 ) -> Vec<Weighted<S>> {
     let own = |k: usize| {
         let (PseudoInertia { mass, first: h, second }, LinkVelocity { w, v }) =
-            (tree.links[k].inertia, velocity[k]);
+            (tree.links[k].inertia.map(|moment| moment * times), velocity[k]);
         let B = second.full() * Matrix3::skew(w).transpose() + Matrix3::outer(h, v);
         Weighted { B, b: w.cross(h) + v.scale(mass) }
     };

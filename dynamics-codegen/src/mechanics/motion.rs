@@ -8,6 +8,8 @@
 //! structure robots*, 1987, for sharing U; its columns along a parent's axis are one vector turned downwards.
 #![allow(non_snake_case, reason = "equations keep the field's symbols")]
 
+use std::ops::Add;
+
 use super::columns::Twist;
 use super::normal::{NormalTree, PlacedJoint};
 use crate::model::Motion;
@@ -178,12 +180,6 @@ impl<S: Scalar> LinkVelocity<S> {
         Self { w: Vector3::zero(), v: Vector3::zero() }
     }
 
-    /// Halfway between the two.
-    pub fn mean(self, other: Self) -> Self {
-        let half = S::one() / S::from(2);
-        Self { w: (self.w + other.w).scale(half), v: (self.v + other.v).scale(half) }
-    }
-
     /// As a twist.
     pub fn twist(self) -> Twist<S> {
         Twist { angular: self.w, linear: self.v }
@@ -192,6 +188,14 @@ impl<S: Scalar> LinkVelocity<S> {
     /// In the frame of the link beyond the joint, without the joint's own.
     fn down(self, joint: &PlacedJoint<S>) -> Self {
         Self { w: joint.down(self.w), v: joint.down(self.v + self.w.cross(joint.position)) }
+    }
+}
+
+impl<S: Scalar> Add for LinkVelocity<S> {
+    type Output = Self;
+
+    fn add(self, rhs: Self) -> Self {
+        Self { w: self.w + rhs.w, v: self.v + rhs.v }
     }
 }
 
