@@ -90,7 +90,7 @@ pub(crate) fn race(rows: &[Row], gigahertz: f64) -> String {
     let _ = writeln!(
         table,
         "\nOurs is behind a peer in {} of {} cells{}. It is ten times as fast as Pinocchio and three times as CasADi's C in {}, \
-         and meets its mark in {met}; in {within_chain} others it takes less than the longest chain of a call.",
+         and meets its mark in {met}; of the others {within_chain} take less than the longest chain of a call.",
         if behind.is_empty() { "none".to_owned() } else { behind.len().to_string() },
         rows.len(),
         if behind.is_empty() { String::new() } else { format!(": {}", behind.join(", ")) },
