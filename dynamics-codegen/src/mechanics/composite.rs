@@ -285,7 +285,8 @@ fn moments_up<S: Scalar>(body: PseudoInertia<S>, joint: &PlacedJoint<S>) -> Pseu
     PseudoInertia { mass: body.mass, first: first + p.scale(body.mass), second: second + shifted }
 }
 
-/// `𝔹` of all that hangs on each joint, in the link's frame, so many times: of the links' own moments, which are numbers.
+/// `𝔹` of all that hangs on each joint, in the link's frame, so many times: by the links' own moments, which are numbers or
+/// parameters, so that it costs a call nothing.
 fn composite_momenta<S: Scalar>(
     tree: &NormalTree<S>,
     joints: &[PlacedJoint<S>],
