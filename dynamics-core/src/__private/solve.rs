@@ -383,7 +383,7 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize, const S: usize>(
             }
         }
     }
-    let (minus_l, inverses) = factor_block(own);
+    let (minus_l, inverses) = factor_block(&own);
     inverse_d.copy_from_slice(&inverses);
     for strip in tree.below(first / STRIP).strips::<S>() {
         let mut rows: [[T; S]; W] = strip_of(m, strip);
@@ -401,9 +401,11 @@ fn factor_rows<T: Scalar, const N: usize, const W: usize, const S: usize>(
 }
 
 /// `−L` below the diagonal, and `1/D`, of a small matrix.
-#[inline(always)]
-fn factor_block<T: Scalar, const W: usize>(mut m: [[T; W]; W]) -> ([[T; W]; W], [T; W]) {
-    let (mut minus_l, mut inverse_d) = ([[T::zero(); W]; W], [T::one(); W]);
+///
+/// On its own: LLVM would sum entry by entry what only some entries are needed of.
+#[inline(never)]
+fn factor_block<T: Scalar, const W: usize>(m: &[[T; W]; W]) -> ([[T; W]; W], [T; W]) {
+    let (mut m, mut minus_l, mut inverse_d) = (*m, [[T::zero(); W]; W], [T::one(); W]);
     for w in (0..W).rev() {
         let Some((before, [row, ..])) = m.split_at_mut_checked(w) else { continue };
         let inverse = T::one() / entry(row, w);
@@ -420,16 +422,21 @@ fn factor_block<T: Scalar, const W: usize>(mut m: [[T; W]; W]) -> ([[T; W]; W], 
 }
 
 /// Takes from each of W rows what it owes to those after it: `minus_l` times these.
-#[inline(always)]
+///
+/// On its own: among the loops that call it its factors would stay in registers, and those of the loops would not.
+#[inline(never)]
 fn eliminate<T: Scalar, const W: usize, const S: usize>(minus_l: &[[T; W]; W], rows: &mut [[T; S]; W]) {
+    let mut own = *rows;
     for (w, minus_l) in minus_l.iter().enumerate().rev() {
-        let Some((before, [row, ..])) = rows.split_at_mut_checked(w) else { continue };
+        let Some((before, [row, ..])) = own.split_at_mut_checked(w) else { continue };
+        let row = *row;
         for (other, factor) in before.iter_mut().zip(minus_l) {
-            for (x, value) in other.iter_mut().zip(&*row) {
-                *x = factor.mul_add(*value, *x);
+            for (x, value) in other.iter_mut().zip(row) {
+                *x = factor.mul_add(value, *x);
             }
         }
     }
+    *rows = own;
 }
 
 /// Writes the columns of `L⁻¹`: each that of the identity less those after it, `L[i][j]` times.

@@ -1,36 +1,57 @@
 //! All that hangs on each joint as one body: its mass, its momenta, the wrench on it; summed from the tips.
 
+use core::mem::replace;
+
 use super::place::Placed;
-use super::{InLanes, Vectors, at, set, six_at};
+use super::{InLanes, Vectors, add, at, set, six_at};
 use crate::__private::recursion::screw::{Twist, Wrench};
 use crate::__private::recursion::vector::{Matrix, Vector};
 use crate::scalar::Scalar;
 
-/// What adds up along the tree once it is counted from the same origin.
-pub(super) trait Additive<T: Scalar, const N: usize>: Copy {
-    /// It for each link, number by number.
-    type Lanes;
-    fn read(all: &Self::Lanes, k: usize) -> Self;
-    fn write(self, all: &mut Self::Lanes, k: usize);
-    fn plus(self, other: Self) -> Self;
-    /// The same from the parent's origin, from which this origin has the given offset.
-    fn shifted(self, offset: Vector<T>) -> Self;
-}
-
 impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
-    /// Adds to each link's value those of all that hangs on it. What goes to the link right before stays in registers.
-    #[inline]
-    pub(super) fn collect<X: Additive<T, N>>(&self, offsets: &[Vector<T>; N], all: &mut X::Lanes) {
-        let mut carried: Option<(usize, X)> = None;
-        for (k, offset) in offsets.iter().enumerate().rev() {
-            let mut value = X::read(all, k);
-            match carried {
-                Some((parent, part)) if parent == k => value = value.plus(part),
-                Some((parent, part)) => X::read(all, parent).plus(part).write(all, parent),
+    /// Adds to each link's numbers those of all that hangs on it, as they are. What goes to the link right before stays in
+    /// registers, and the sums of all numbers run side by side.
+    #[inline(always)]
+    fn sum<const K: usize>(&self, mut numbers: [&mut [T; N]; K]) {
+        let mut sums = [T::zero(); K];
+        for k in (0..N).rev() {
+            for (x, sum) in numbers.iter_mut().zip(&mut sums) {
+                *sum += at(x.as_slice(), k);
+                set(x.as_mut_slice(), k, *sum);
+            }
+            if self.is_chain {
+                continue;
+            }
+            let parts = replace(&mut sums, [T::zero(); K]);
+            match self.parent(k) {
+                Some(parent) if parent + 1 == k => sums = parts,
+                Some(parent) => {
+                    for (x, part) in numbers.iter_mut().zip(parts) {
+                        add(x.as_mut_slice(), parent, part);
+                    }
+                }
                 None => {}
             }
-            value.write(all, k);
-            carried = self.parent(k).map(|parent| (parent, value.shifted(*offset)));
+        }
+    }
+
+    /// Adds to the parents' numbers what each link gives them: along a chain in lanes.
+    #[inline(always)]
+    fn give<const K: usize>(&self, mut numbers: [&mut [T; N]; K], gift: impl Fn(usize) -> [T; K]) {
+        if self.is_chain {
+            for k in 1..N {
+                let gift = gift(k);
+                for (x, gift) in numbers.iter_mut().zip(gift) {
+                    add(x.as_mut_slice(), k - 1, gift);
+                }
+            }
+            return;
+        }
+        for k in 0..N {
+            let Some(parent) = self.parent(k) else { continue };
+            for (x, gift) in numbers.iter_mut().zip(gift(k)) {
+                add(x.as_mut_slice(), parent, gift);
+            }
         }
     }
 
@@ -97,58 +118,56 @@ impl<T: Scalar, const N: usize> MomentsInLanes<T, N> {
 
     #[inline(always)]
     pub(super) fn at(&self, k: usize) -> Moments<T> {
-        Moments::read(self, k)
+        Moments { mass: at(&self.mass, k), first: self.first.at(k), second: six_at(&self.second, k) }
     }
 }
 
-impl<T: Scalar, const N: usize> Additive<T, N> for Moments<T> {
-    type Lanes = MomentsInLanes<T, N>;
-
-    #[inline(always)]
-    fn read(all: &Self::Lanes, k: usize) -> Self {
-        Self { mass: at(&all.mass, k), first: all.first.at(k), second: six_at(&all.second, k) }
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
+    /// Adds to each link's moments those of all that hangs on it, each about its own link's origin.
+    #[inline(never)]
+    pub(super) fn collect_moments(&self, placed: &Placed<T, N>, moments: &mut MomentsInLanes<T, N>) {
+        let MomentsInLanes { mass, first, second } = moments;
+        self.sum([mass]);
+        self.give(first.0.each_mut(), |k| placed.offsets.at(k).scaled(at(mass, k)).0);
+        self.sum(first.0.each_mut());
+        // Σ + f dᵀ + d hᵀ, with the first moment f from the parent's origin.
+        self.give(second.each_mut(), |k| {
+            let (Vector([x, y, z]), Vector([hx, hy, hz])) = (placed.offsets.at(k), first.at(k));
+            let Vector([fx, fy, fz]) = first.at(k).plus_scaled(placed.offsets.at(k), at(mass, k));
+            [
+                fx.mul_add(x, x * hx),
+                fy.mul_add(y, y * hy),
+                fz.mul_add(z, z * hz),
+                fx.mul_add(y, x * hy),
+                fx.mul_add(z, x * hz),
+                fy.mul_add(z, y * hz),
+            ]
+        });
+        self.sum(second.each_mut());
     }
 
-    #[inline(always)]
-    fn write(self, all: &mut Self::Lanes, k: usize) {
-        set(&mut all.mass, k, self.mass);
-        all.first.set(k, self.first);
-        for (x, value) in all.second.iter_mut().zip(self.second) {
-            set(x, k, value);
+    /// The same of momenta.
+    #[inline(never)]
+    pub(super) fn collect_momenta(&self, placed: &Placed<T, N>, momenta: &mut MomentaInLanes<T, N>) {
+        let MomentaInLanes { first, zeroth } = momenta;
+        self.sum(zeroth.0.each_mut());
+        for (axis, row) in first.iter_mut().enumerate() {
+            self.give(row.0.each_mut(), |k| {
+                let Vector(offset) = placed.offsets.at(k);
+                zeroth.at(k).scaled(at(&offset, axis)).0
+            });
         }
+        let [Vectors([a, b, c], _), Vectors([d, e, f], _), Vectors([g, h, i], _)] = first;
+        self.sum([a, b, c, d, e, f, g, h, i]);
     }
 
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        let ([a, b, c, d, e, f], [u, v, w, x, y, z]) = (self.second, other.second);
-        Self {
-            mass: self.mass + other.mass,
-            first: self.first + other.first,
-            second: [a + u, b + v, c + w, d + x, e + y, f + z],
-        }
-    }
-
-    #[inline(always)]
-    fn shifted(self, offset: Vector<T>) -> Self {
-        let Vector([x, y, z]) = offset;
-        let Vector([hx, hy, hz]) = self.first;
-        let first = self.first.plus_scaled(offset, self.mass);
-        let Vector([fx, fy, fz]) = first;
-        let [xx, yy, zz, xy, xz, yz] = self.second;
-        // Σ + f dᵀ + d hᵀ, with the first moment f from the new origin.
-        let moved = |own: T, f: T, d: T, e: T, h: T| f.mul_add(d, e.mul_add(h, own));
-        Self {
-            mass: self.mass,
-            first,
-            second: [
-                moved(xx, fx, x, x, hx),
-                moved(yy, fy, y, y, hy),
-                moved(zz, fz, z, z, hz),
-                moved(xy, fx, y, x, hy),
-                moved(xz, fx, z, x, hz),
-                moved(yz, fy, z, y, hz),
-            ],
-        }
+    /// The same of wrenches.
+    #[inline(never)]
+    pub(super) fn collect_wrenches(&self, placed: &Placed<T, N>, wrenches: &mut WrenchesInLanes<T, N>) {
+        let WrenchesInLanes { moments, forces } = wrenches;
+        self.sum(forces.0.each_mut());
+        self.give(moments.0.each_mut(), |k| placed.offsets.at(k).cross(forces.at(k)).0);
+        self.sum(moments.0.each_mut());
     }
 }
 
@@ -193,36 +212,19 @@ impl<T: Scalar, const N: usize> MomentaInLanes<T, N> {
     pub(super) fn zero() -> Self {
         Self { first: [Vectors::zero(); 3], zeroth: Vectors::zero() }
     }
-}
-
-impl<T: Scalar, const N: usize> Additive<T, N> for Momenta<T> {
-    type Lanes = MomentaInLanes<T, N>;
 
     #[inline(always)]
-    fn read(all: &Self::Lanes, k: usize) -> Self {
-        let [x, y, z] = &all.first;
-        Self { first: Matrix([x.at(k).0, y.at(k).0, z.at(k).0]), zeroth: all.zeroth.at(k) }
+    pub(super) fn at(&self, k: usize) -> Momenta<T> {
+        let [x, y, z] = &self.first;
+        Momenta { first: Matrix([x.at(k).0, y.at(k).0, z.at(k).0]), zeroth: self.zeroth.at(k) }
     }
 
     #[inline(always)]
-    fn write(self, all: &mut Self::Lanes, k: usize) {
-        for (rows, row) in all.first.iter_mut().zip(self.first.0) {
+    pub(super) fn set(&mut self, k: usize, momenta: Momenta<T>) {
+        for (rows, row) in self.first.iter_mut().zip(momenta.first.0) {
             rows.set(k, Vector(row));
         }
-        all.zeroth.set(k, self.zeroth);
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self { first: self.first + other.first, zeroth: self.zeroth + other.zeroth }
-    }
-
-    #[inline(always)]
-    fn shifted(self, offset: Vector<T>) -> Self {
-        let Matrix([x, y, z]) = self.first;
-        let Vector([dx, dy, dz]) = offset;
-        let row = |row: [T; 3], d: T| Vector(row).plus_scaled(self.zeroth, d).0;
-        Self { first: Matrix([row(x, dx), row(y, dy), row(z, dz)]), zeroth: self.zeroth }
+        self.zeroth.set(k, momenta.zeroth);
     }
 }
 
@@ -245,63 +247,12 @@ impl<T: Scalar, const N: usize> WrenchesInLanes<T, N> {
 
     #[inline(always)]
     pub(super) fn at(&self, k: usize) -> Wrench<T> {
-        Wrench::read(self, k)
+        Wrench { moment: self.moments.at(k), force: self.forces.at(k) }
+    }
+
+    #[inline(always)]
+    pub(super) fn set(&mut self, k: usize, wrench: Wrench<T>) {
+        self.moments.set(k, wrench.moment);
+        self.forces.set(k, wrench.force);
     }
 }
-
-impl<T: Scalar, const N: usize> Additive<T, N> for Wrench<T> {
-    type Lanes = WrenchesInLanes<T, N>;
-
-    #[inline(always)]
-    fn read(all: &Self::Lanes, k: usize) -> Self {
-        Self { moment: all.moments.at(k), force: all.forces.at(k) }
-    }
-
-    #[inline(always)]
-    fn write(self, all: &mut Self::Lanes, k: usize) {
-        all.moments.set(k, self.moment);
-        all.forces.set(k, self.force);
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        self + other
-    }
-
-    #[inline(always)]
-    fn shifted(self, offset: Vector<T>) -> Self {
-        Self::shifted(self, offset)
-    }
-}
-
-/// Several at once: their chains of sums run side by side.
-macro_rules! side_by_side {
-    ($($part:ident $place:tt),*) => {
-        impl<T: Scalar, const N: usize, $($part: Additive<T, N>),*> Additive<T, N> for ($($part,)*) {
-            type Lanes = ($($part::Lanes,)*);
-
-            #[inline(always)]
-            fn read(all: &Self::Lanes, k: usize) -> Self {
-                ($($part::read(&all.$place, k),)*)
-            }
-
-            #[inline(always)]
-            fn write(self, all: &mut Self::Lanes, k: usize) {
-                $(self.$place.write(&mut all.$place, k);)*
-            }
-
-            #[inline(always)]
-            fn plus(self, other: Self) -> Self {
-                ($(self.$place.plus(other.$place),)*)
-            }
-
-            #[inline(always)]
-            fn shifted(self, offset: Vector<T>) -> Self {
-                ($(self.$place.shifted(offset),)*)
-            }
-        }
-    };
-}
-
-side_by_side!(A 0, B 1);
-side_by_side!(A 0, B 1, C 2);

@@ -2,7 +2,7 @@
 
 use nalgebra::{SMatrix, SVector};
 
-use super::bodies::{Additive, Momenta, MomentaInLanes, Moments, MomentsInLanes, WrenchesInLanes};
+use super::bodies::{Momenta, MomentaInLanes, MomentsInLanes, WrenchesInLanes};
 use super::motion::TwistsInLanes;
 use super::pairs::{Changes, Pairs};
 use super::place::Placed;
@@ -21,7 +21,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         self.place(entries(q), &mut placed);
         let mut moments = MomentsInLanes::zero();
         self.moments(&placed, &mut moments);
-        self.collect::<Moments<T>>(&placed.offsets, &mut moments);
+        self.collect_moments(&placed, &mut moments);
         let mut rows = WrenchesInLanes::zero();
         set_rows(&placed, &moments, &mut rows);
         columns(self.pairs(&placed, &rows).mass_matrix(&self.armatures()))
@@ -110,21 +110,22 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         self.place(entries(q), &mut placed);
         let (mut velocities, mut accelerations) = (TwistsInLanes::zero(), TwistsInLanes::zero());
         self.motions(&placed, entries(v), entries(a), [&mut velocities, &mut accelerations]);
-        let mut bodies = (MomentsInLanes::zero(), MomentaInLanes::zero(), WrenchesInLanes::zero());
-        let (moments, momenta, wrenches) = &mut bodies;
-        self.moments(&placed, moments);
-        set_momenta(moments, &velocities, momenta);
-        set_wrenches(moments, &velocities, &accelerations, wrenches);
-        self.collect::<(Moments<T>, Momenta<T>, Wrench<T>)>(&placed.offsets, &mut bodies);
-        let (moments, momenta, wrenches) = &bodies;
-        let composites = (moments, momenta);
+        let (mut moments, mut momenta) = (MomentsInLanes::zero(), MomentaInLanes::zero());
+        let mut wrenches = WrenchesInLanes::zero();
+        self.moments(&placed, &mut moments);
+        set_momenta(&moments, &velocities, &mut momenta);
+        set_wrenches(&moments, &velocities, &accelerations, &mut wrenches);
+        self.collect_moments(&placed, &mut moments);
+        self.collect_momenta(&placed, &mut momenta);
+        self.collect_wrenches(&placed, &mut wrenches);
+        let composites = (&moments, &momenta);
 
         let (mut of_speeds, mut of_places, mut nu) = (Changes::zero(), Changes::zero(), Vectors::zero());
         by_speed(&placed, &velocities, composites, &mut of_speeds, &mut nu);
-        by_place(&placed, [&velocities, &accelerations], composites, wrenches, &of_speeds, &mut of_places);
+        by_place(&placed, [&velocities, &accelerations], composites, &wrenches, &of_speeds, &mut of_places);
         self.change_base(&placed, &velocities, composites, [&mut of_places, &mut of_speeds]);
         let mut rows = WrenchesInLanes::zero();
-        set_rows(&placed, moments, &mut rows);
+        set_rows(&placed, &moments, &mut rows);
         let (armatures, [slopes_by_place, slopes_by_speed]) =
             (self.armatures(), self.passive_slopes(entries(v)));
         let differentiated = Differentiated {
@@ -135,7 +136,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             slopes: [&slopes_by_place, &slopes_by_speed],
             armatures: &armatures,
         };
-        finish(wrenches, differentiated)
+        finish(&wrenches, differentiated)
     }
 
     /// Writes over the changes of a free base those of a joint of six parts, which turn each other: by place, they change as
@@ -148,14 +149,14 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         [of_places, of_speeds]: [&mut Changes<T, N>; 2],
     ) {
         for k in 0..Self::BASE {
-            let (unit, moments, momenta) = (placed.twist(k), moments.at(k), Momenta::read(momenta, k));
+            let (unit, moments, momenta) = (placed.twist(k), moments.at(k), momenta.at(k));
             let by_place = self.upwards().cross(unit);
             of_places.twists.set(k, by_place);
             of_places.turns.set(k, Vector::zero());
-            moments.wrench_of(by_place).write(&mut of_places.wrenches, k);
+            of_places.wrenches.set(k, moments.wrench_of(by_place));
             let by_speed = velocities.at(k).scaled(T::of(0.5)).cross(unit);
             of_speeds.twists.set(k, by_speed);
-            (moments.wrench_of(by_speed) + momenta.wrench_of(unit.angular)).write(&mut of_speeds.wrenches, k);
+            of_speeds.wrenches.set(k, moments.wrench_of(by_speed) + momenta.wrench_of(unit.angular));
         }
     }
 
@@ -168,7 +169,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     ) {
         self.moments(placed, &mut composites.0);
         set_momenta(&composites.0, velocities, &mut composites.1);
-        self.collect::<(Moments<T>, Momenta<T>)>(&placed.offsets, composites);
+        self.collect_moments(placed, &mut composites.0);
+        self.collect_momenta(placed, &mut composites.1);
     }
 }
 
@@ -198,7 +200,7 @@ fn set_rows<T: Scalar, const N: usize>(
     rows: &mut WrenchesInLanes<T, N>,
 ) {
     for k in 0..N {
-        moments.at(k).wrench_of(placed.twist(k)).write(rows, k);
+        rows.set(k, moments.at(k).wrench_of(placed.twist(k)));
     }
 }
 
@@ -209,7 +211,7 @@ fn set_momenta<T: Scalar, const N: usize>(
     momenta: &mut MomentaInLanes<T, N>,
 ) {
     for k in 0..N {
-        Momenta::new(&moments.at(k), velocities.at(k)).write(momenta, k);
+        momenta.set(k, Momenta::new(&moments.at(k), velocities.at(k)));
     }
 }
 
@@ -224,7 +226,7 @@ fn set_wrenches<T: Scalar, const N: usize>(
         let (body, w) = (moments.at(k), velocities.angular.at(k));
         let moving =
             Wrench { moment: w.cross(body.rotational_times(w)), force: w.cross(w.cross(body.first)) };
-        (moving + body.wrench_of(accelerations.at(k))).write(wrenches, k);
+        wrenches.set(k, moving + body.wrench_of(accelerations.at(k)));
     }
 }
 
@@ -237,11 +239,11 @@ fn by_speed<T: Scalar, const N: usize>(
     nu: &mut Vectors<T, N>,
 ) {
     for k in 0..N {
-        let (unit, momenta) = (placed.twist(k), Momenta::read(momenta, k));
+        let (unit, momenta) = (placed.twist(k), momenta.at(k));
         let twist = velocities.at(k).cross(unit);
         changes.twists.set(k, twist);
         changes.turns.set(k, unit.angular);
-        (moments.at(k).wrench_of(twist) + momenta.wrench_of(unit.angular)).write(&mut changes.wrenches, k);
+        changes.wrenches.set(k, moments.at(k).wrench_of(twist) + momenta.wrench_of(unit.angular));
         nu.set(k, momenta.row_of(unit));
     }
 }
@@ -260,8 +262,8 @@ fn by_place<T: Scalar, const N: usize>(
         let acceleration = accelerations.at(k).without_turning(velocity);
         let twist = acceleration.cross(unit) + velocity.cross(rate);
         let turn = rate.angular + rate.angular;
-        let wrench = moments.at(k).wrench_of(twist) + Momenta::read(momenta, k).wrench_of(turn);
-        (wrench + unit.cross_wrench(wrenches.at(k))).write(&mut changes.wrenches, k);
+        let wrench = moments.at(k).wrench_of(twist) + momenta.at(k).wrench_of(turn);
+        changes.wrenches.set(k, wrench + unit.cross_wrench(wrenches.at(k)));
         changes.twists.set(k, twist);
         changes.turns.set(k, turn);
     }

@@ -11,6 +11,9 @@
 //! freely instead. It counts as six bodies in a row then, one for each of its speeds, at one place and with one velocity;
 //! the last of them has its mass. Nothing here depends on where the free base is: all is counted from its own origin.
 //!
+//! What adds up from the tips is a chain of additions and nothing else: what a link gives its parent is computed in lanes
+//! before.
+//!
 //! At 32 joints this is two to three times as fast as a straight line, whose code is too long for the cache.
 
 mod bodies;
@@ -27,13 +30,17 @@ use crate::scalar::Scalar;
 /// link 0 moves freely, with the first coordinates and speeds, and the others' follow. Bodies are counted by their speeds.
 pub struct InLanes<'t, T, const NL: usize, const NQ: usize, const N: usize> {
     tree: &'t Tree<T, NL, NQ, N>,
+    /// Whether each body hangs on the one before it.
+    is_chain: bool,
 }
 
-impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> Tree<T, NL, NQ, N> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
     /// The matrices in lanes. The links must be as [`InLanes`] says: the compiler sees to it.
     #[inline(always)]
-    pub fn in_lanes(&self) -> InLanes<'_, T, NL, NQ, N> {
-        InLanes { tree: self }
+    pub fn in_lanes(&self) -> InLanes<'_, T, NL, NQ, NV> {
+        let mut lanes = InLanes { tree: self, is_chain: true };
+        lanes.is_chain = (0..NV).all(|k| lanes.parent(k) == k.checked_sub(1));
+        lanes
     }
 }
 
@@ -52,7 +59,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
 
     /// For each body where what hangs on it ends; none for a chain, where that is the last one.
     fn ends(&self) -> Option<[usize; N]> {
-        if (0..N).all(|k| self.parent(k) == k.checked_sub(1)) {
+        if self.is_chain {
             return None;
         }
         let mut ends = [0; N];
@@ -145,5 +152,13 @@ fn at<T: Scalar>(x: &[T], k: usize) -> T {
 fn set<T>(x: &mut [T], k: usize, value: T) {
     if let Some(x) = x.get_mut(k) {
         *x = value;
+    }
+}
+
+/// Adds to an entry that is there.
+#[inline(always)]
+fn add<T: Scalar>(x: &mut [T], k: usize, value: T) {
+    if let Some(x) = x.get_mut(k) {
+        *x += value;
     }
 }

@@ -67,13 +67,14 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             velocities.set(k, base);
         }
         let mut last = (Self::BASE.wrapping_sub(1), base);
-        for (k, offset) in placed.offsets.iter().enumerate().skip(Self::BASE) {
+        for k in Self::BASE..N {
+            let offset = placed.offsets.at(k);
             let parent = match self.parent(k) {
                 None => Twist::zero(),
                 Some(parent) if parent == last.0 => last.1,
                 Some(parent) => velocities.at(parent),
             };
-            let velocity = parent.carried(*offset) + placed.twist(k).scaled(at(v, k));
+            let velocity = parent.carried(offset) + placed.twist(k).scaled(at(v, k));
             velocities.set(k, velocity);
             last = (k, velocity);
         }
@@ -96,7 +97,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             accelerations.set(k, base.1);
         }
         let mut last = (Self::BASE.wrapping_sub(1), base);
-        for (k, offset) in placed.offsets.iter().enumerate().skip(Self::BASE) {
+        for k in Self::BASE..N {
+            let offset = placed.offsets.at(k);
             let (velocity, acceleration) = match self.parent(k) {
                 None => world,
                 Some(parent) if parent == last.0 => last.1,
@@ -106,10 +108,10 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             let joint = unit.scaled(at(v, k));
             let drift = Twist {
                 angular: w.cross(joint.angular),
-                linear: w.cross(w.cross(*offset) + joint.linear + joint.linear),
+                linear: w.cross(w.cross(offset) + joint.linear + joint.linear),
             };
-            let velocity = velocity.carried(*offset) + joint;
-            let acceleration = acceleration.carried(*offset) + drift + unit.scaled(at(a, k));
+            let velocity = velocity.carried(offset) + joint;
+            let acceleration = acceleration.carried(offset) + drift + unit.scaled(at(a, k));
             velocities.set(k, velocity);
             accelerations.set(k, acceleration);
             last = (k, (velocity, acceleration));

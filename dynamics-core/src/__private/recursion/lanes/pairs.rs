@@ -2,6 +2,7 @@
 //!
 //! For a few columns at a time all wrenches and twists are counted from the origin of the first of their joints.
 
+use core::hint::black_box;
 use core::ops::Range;
 
 use super::bodies::WrenchesInLanes;
@@ -72,9 +73,10 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                     for part in 0..$group / $width {
                         let first = first + part * $width;
                         let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
+                        let units = black_box(&units); // LLVM would store a register of each
                         by_rows!(T, ROWS = STRIP, {
                             for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
-                                let sums: [[T; ROWS]; $width] = products(&rows, row_in(&units), 0..6, strip);
+                                let sums: [[T; ROWS]; $width] = products(&rows, row_in(units), 0..6, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
                         });
@@ -134,10 +136,11 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                         let mut forcing: [[T; $width]; 6] =
                             self.shifted(changes.wrenches.both(), first, origin);
                         scale_all(&mut forcing, scale);
+                        let (moving, forcing) = (black_box(&moving), black_box(&forcing));
                         by_rows!(T, ROWS = STRIP, {
                             // On the diagonal and below it.
                             for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
-                                let sums: [[T; ROWS]; $width] = products(&below, row_in(&moving), 0..9, strip);
+                                let sums: [[T; ROWS]; $width] = products(&below, row_in(moving), 0..9, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
                             // Above it.
@@ -145,15 +148,15 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                                 if !self.carries::<ROWS>(strip, first) {
                                     continue;
                                 }
-                                let sums: [[T; ROWS]; $width] = products(&above, row_in(&forcing), 0..6, strip);
+                                let sums: [[T; ROWS]; $width] = products(&above, row_in(forcing), 0..6, strip);
                                 put!(m: [[_; N]; N], first, strip, sums);
                             }
                             // And what is there in the same strips as what is not.
                             for strip in first / ROWS..(first + $width).div_ceil(ROWS) {
                                 let begin = first_of(strip, ROWS, N);
-                                let sums: [[T; ROWS]; $width] =
-                                    products(&above, row_in(&forcing), 0..6, strip);
-                                for (j, sums) in sums.iter().enumerate() {
+                                let sums: [[T; ROWS]; $width] = products(&above, row_in(forcing), 0..6, strip);
+                                // LLVM would compute one by one what is not all needed.
+                                for (j, sums) in black_box(&sums).iter().enumerate() {
                                     for (i, value) in sums.iter().enumerate() {
                                         let (column, row) = (first + j, begin + i);
                                         if row < column && column < N {

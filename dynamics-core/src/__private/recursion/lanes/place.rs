@@ -1,6 +1,7 @@
 //! Where the links are.
 
 use core::array::from_fn;
+use core::hint::black_box;
 
 use super::{InLanes, Vectors, at, set};
 use crate::__private::recursion::vector::{Matrix, Vector};
@@ -11,7 +12,7 @@ pub(super) struct Placed<T, const N: usize> {
     /// Where the rotations take x, y and z.
     axes: [Vectors<T, N>; 3],
     /// From the parents' origins to the links'.
-    pub(super) offsets: [Vector<T>; N],
+    pub(super) offsets: Vectors<T, N>,
     /// From the world's origin to the links', or from that of a free base.
     pub(super) origins: Vectors<T, N>,
     /// The joints' unit motions about the links' origins: their turn, and their slide.
@@ -36,7 +37,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         // Whether joints turn, as a factor: lanes do not branch.
         let (mut turns, mut slides) = ([T::zero(); N], [T::zero(); N]);
         for k in Self::BASE..N {
-            set(if self.turns(k) { &mut turns } else { &mut slides }, k, T::one());
+            let (turn, slide) = if self.turns(k) { (T::one(), T::zero()) } else { (T::zero(), T::one()) };
+            set(&mut turns, k, turn);
+            set(&mut slides, k, slide);
         }
         let coordinates = self.coordinates(q);
         let mut angles = coordinates;
@@ -102,9 +105,10 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             }
             let (x, y, z) = (combined(&parent.axes, x), combined(&parent.axes, y), combined(&parent.axes, z));
             last = Place { axes: [x, y, z], origin };
-            placed.write(k, &last);
-            let [x, y, z, _] = offset;
-            set(&mut placed.offsets, k, Vector([x, y, z]));
+            // LLVM would compute number by number what it writes number by number.
+            placed.write(k, &black_box(last));
+            let [x, y, z, _] = black_box(offset);
+            placed.offsets.set(k, Vector([x, y, z]));
         }
     }
 }
@@ -128,7 +132,7 @@ impl<T: Scalar, const N: usize> Placed<T, N> {
     pub(super) fn zero() -> Self {
         Self {
             axes: [Vectors::zero(); 3],
-            offsets: [Vector::zero(); N],
+            offsets: Vectors::zero(),
             origins: Vectors::zero(),
             turns: Vectors::zero(),
             slides: Vectors::zero(),
