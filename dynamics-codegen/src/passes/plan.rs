@@ -28,8 +28,8 @@ const LARGEST_STRAIGHT_SOLVE_SIDE_BY_SIDE: usize = 10;
 /// on the other's way to the base, those of branches that are alike once. With so many entries for every two speeds a
 /// Coriolis matrix and derivatives are sooner done in lanes: a chain of twelve, or of ten on a free base.
 const ENTRIES_FOR_LANES: usize = 13;
-/// The same of a mass matrix, whose entries are a third of the work: a chain of sixteen.
-const MASSES_FOR_LANES: usize = 17;
+/// The same of a mass matrix, whose entries are a third of the work: a chain of twenty.
+const MASSES_FOR_LANES: usize = 21;
 /// What moves a free base is along and about its own axes: a straight line has its entries for so many of six speeds.
 const SPEEDS_OF_FREE_BASE: usize = 4;
 

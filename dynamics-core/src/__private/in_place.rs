@@ -6,7 +6,7 @@
 
 use core::hint::black_box;
 
-use crate::product::STRIP;
+use crate::product::{STRIP, has_lanes};
 use crate::scalar::Scalar;
 
 /// A matrix that is about to be overwritten: zeros, of which the compiler does not know. It would write zeros that it
@@ -14,6 +14,13 @@ use crate::scalar::Scalar;
 #[inline(never)]
 pub(super) fn blank<T: Scalar, const R: usize, const C: usize>() -> [[T; R]; C] {
     [[black_box(T::zero()); R]; C]
+}
+
+/// What LLVM has to lay in memory: it would take apart, entry by entry, what is used so. A scalar with lanes is one
+/// register an entry, and stays where it is.
+#[inline(always)]
+pub(super) fn laid_down<T: Scalar, X>(x: X) -> X {
+    if const { has_lanes::<T>() } { x } else { black_box(x) }
 }
 
 /// `put!(matrix: [[_; R]; C], first, strip, sums)`: writes a strip of some columns from `first` on, as far as the matrix

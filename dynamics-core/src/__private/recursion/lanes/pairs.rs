@@ -2,7 +2,6 @@
 //!
 //! For a few columns at a time all wrenches and twists are counted from the origin of the first of their joints.
 
-use core::hint::black_box;
 use core::ops::Range;
 
 use super::bodies::WrenchesInLanes;
@@ -10,7 +9,7 @@ use super::motion::TwistsInLanes;
 use super::place::Placed;
 use super::{InLanes, Vectors, set};
 use crate::__private::columns;
-use crate::__private::in_place::{blank, mirror, put};
+use crate::__private::in_place::{blank, laid_down, mirror, put};
 use crate::__private::recursion::vector::Vector;
 use crate::dynamics::InverseDynamicsDerivatives;
 use crate::product::{COLUMNS, FEW_COLUMNS, STRIP, by_rows, first_of, has_lanes, parts, products};
@@ -73,7 +72,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                     for part in 0..$group / $width {
                         let first = first + part * $width;
                         let units: [[T; $width]; 6] = self.shifted(self.placed.unit_twists(), first, origin);
-                        let units = black_box(&units); // LLVM would store a register of each
+                        let units = laid_down::<T, _>(&units); // LLVM would store a register of each
                         by_rows!(T, ROWS = STRIP, {
                             for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
                                 let sums: [[T; ROWS]; $width] = products(&rows, row_in(units), 0..6, strip);
@@ -136,7 +135,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                         let mut forcing: [[T; $width]; 6] =
                             self.shifted(changes.wrenches.both(), first, origin);
                         scale_all(&mut forcing, scale);
-                        let (moving, forcing) = (black_box(&moving), black_box(&forcing));
+                        let (moving, forcing) = (laid_down::<T, _>(&moving), laid_down::<T, _>(&forcing));
                         by_rows!(T, ROWS = STRIP, {
                             // On the diagonal and below it.
                             for strip in (first / ROWS..end.div_ceil(ROWS)).rev() {
@@ -156,7 +155,7 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                                 let begin = first_of(strip, ROWS, N);
                                 let sums: [[T; ROWS]; $width] = products(&above, row_in(forcing), 0..6, strip);
                                 // LLVM would compute one by one what is not all needed.
-                                for (j, sums) in black_box(&sums).iter().enumerate() {
+                                for (j, sums) in laid_down::<T, _>(&sums).iter().enumerate() {
                                     for (i, value) in sums.iter().enumerate() {
                                         let (column, row) = (first + j, begin + i);
                                         if row < column && column < N {

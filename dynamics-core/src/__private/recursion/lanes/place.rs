@@ -1,9 +1,9 @@
 //! Where the links are.
 
 use core::array::from_fn;
-use core::hint::black_box;
 
 use super::{InLanes, Vectors, at, set};
+use crate::__private::in_place::laid_down;
 use crate::__private::recursion::vector::{Matrix, Vector};
 use crate::scalar::Scalar;
 
@@ -106,8 +106,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             let (x, y, z) = (combined(&parent.axes, x), combined(&parent.axes, y), combined(&parent.axes, z));
             last = Place { axes: [x, y, z], origin };
             // LLVM would compute number by number what it writes number by number.
-            placed.write(k, &black_box(last));
-            let [x, y, z, _] = black_box(offset);
+            placed.write(k, &laid_down::<T, _>(last));
+            let [x, y, z, _] = laid_down::<T, _>(offset);
             placed.offsets.set(k, Vector([x, y, z]));
         }
     }
