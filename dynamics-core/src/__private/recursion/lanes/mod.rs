@@ -34,12 +34,12 @@ pub struct InLanes<'t, T, const NL: usize, const NQ: usize, const N: usize> {
     is_chain: bool,
 }
 
-impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {
+impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> Tree<T, NL, NQ, N> {
     /// The matrices in lanes. The links must be as [`InLanes`] says: the compiler sees to it.
     #[inline(always)]
-    pub fn in_lanes(&self) -> InLanes<'_, T, NL, NQ, NV> {
+    pub fn in_lanes(&self) -> InLanes<'_, T, NL, NQ, N> {
         let mut lanes = InLanes { tree: self, is_chain: true };
-        lanes.is_chain = (0..NV).all(|k| lanes.parent(k) == k.checked_sub(1));
+        lanes.is_chain = (0..N).all(|k| lanes.parent(k) == k.checked_sub(1));
         lanes
     }
 }
