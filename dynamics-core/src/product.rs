@@ -104,11 +104,6 @@ pub(crate) fn product<T: Scalar, const R: usize, const K: usize, const C: usize>
     SMatrix::from_array_storage(ArrayStorage(columns))
 }
 
-/// Into how many strips so many rows fall.
-pub(crate) const fn strips(rows: usize) -> usize {
-    rows.div_ceil(STRIP)
-}
-
 /// Where a part of so many begins. The last one begins early enough to be full: a few rows or columns one by one take
 /// longer than a full part in lanes. What it makes of rows of the part before is that part's to write again, from the terms
 /// that these rows have; so strips are computed from the last to the first.

@@ -21,7 +21,7 @@ use robots::{AXES, Robot, Shape, lifted};
 /// Roundings of long sums, relative to the largest entry.
 const TOLERANCE: f64 = 1e-11;
 
-/// The same behind a mass matrix of a hundred joints.
+/// The same behind a mass matrix of up to a hundred joints.
 const TOLERANCE_OF_SOLUTIONS: f64 = 1e-8;
 
 #[track_caller]

@@ -183,7 +183,8 @@ pub fn compile<'g>(
             }
             form @ (Form::Table | Form::Lanes) => {
                 let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));
-                (Plan::Table { frame, in_lanes: form == Form::Lanes }, plan.cost_of_table(method))
+                let lanes = (form == Form::Lanes).then(|| plan.parents.clone());
+                (Plan::Table { frame, lanes }, plan.cost_of_table(method))
             }
         };
         compiled.push(CompiledMethod { method, cost, plan, shares: shares(method) });

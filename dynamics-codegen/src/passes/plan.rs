@@ -54,8 +54,8 @@ pub enum Plan<'g> {
     Table {
         /// For the kinematics of a frame: its link, and the program of its pose in that link.
         frame: Option<(Option<usize>, Program)>,
-        /// Whether in lanes over links.
-        in_lanes: bool,
+        /// If in lanes over links: the speed before each on its way to the base, by which M is factored.
+        lanes: Option<Vec<Option<usize>>>,
     },
 }
 
@@ -198,6 +198,10 @@ impl Plans {
             | Method::EquationsOfMotion
             | Method::InverseDynamicsDerivatives
             | Method::InverseDynamicsWithDerivatives => ENTRIES_FOR_LANES,
+            // They begin as those do.
+            Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
+                return self.is_sooner_in_lanes(Method::InverseDynamicsDerivatives);
+            }
             _ => return false,
         };
         let is_sooner = 2 * self.entries >= entries_of_two * self.ancestors.len();
@@ -267,8 +271,13 @@ impl Plans {
     }
 
     /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since
-    /// nothing is known to be zero.
+    /// nothing is known to be zero. Derivatives of forward dynamics begin with forces and derivatives of the inverse.
     pub(super) fn cost_of_table(&self, method: Method) -> Cost {
+        if let Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives = method {
+            let before = [Method::BiasForces, Method::InverseDynamicsDerivatives];
+            let own = self.cost_of_loops(method, None);
+            return before.into_iter().fold(own, |sum, method| sum + self.cost_of_table(method));
+        }
         let count = u32::try_from(3 * self.statements(method)).unwrap_or(u32::MAX);
         let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);
         Cost { multiplications: count, additions: count, sines_and_cosines: joints, ..Cost::default() }

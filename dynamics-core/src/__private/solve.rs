@@ -19,7 +19,7 @@ use super::in_place::{Tile, blank, mirror, put, transposed};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::product::{
     COLUMNS, FEW_COLUMNS, LONG_STRIP, STRIP, add_products, by_rows, first_of, has_lanes, multiply, parts,
-    products, row_of, strip_of, strips, write_strip,
+    products, row_of, strip_of, write_strip,
 };
 use crate::scalar::Scalar;
 
@@ -43,7 +43,15 @@ macro_rules! by_rest {
 /// Where the factors of a matrix have entries: at each joint and those between it and the base.
 #[derive(Clone, Copy, Debug)]
 pub struct EliminationTree<const N: usize> {
-    /// For each strip of rows, the joints that one of them is, or hangs on.
+    strips: Ways<N>,
+    /// The same of so many rows as are solved for at a time.
+    solved: Ways<N>,
+}
+
+/// Which joints are on the way from rows of a matrix, some at a time, to the base, or to the tips.
+#[derive(Clone, Copy, Debug)]
+struct Ways<const N: usize> {
+    /// For each part of the rows, the joints that one of them is, or hangs on.
     below: [Joints<N>; N],
     /// The joints that are one of them, or hang on one.
     beyond: [Joints<N>; N],
@@ -105,45 +113,69 @@ impl<const N: usize> EliminationTree<N> {
     /// By the joint before each on its way to the base.
     #[must_use]
     pub const fn of(parents: [Option<usize>; N]) -> Self {
+        Self { strips: Ways::of(&parents, STRIP), solved: Ways::of(&parents, rows_to_solve(N)) }
+    }
+
+    #[inline(always)]
+    fn below(&self, strip: usize) -> &Joints<N> {
+        self.strips.below(strip)
+    }
+
+    #[inline(always)]
+    fn beyond(&self, strip: usize) -> &Joints<N> {
+        self.strips.beyond(strip)
+    }
+}
+
+impl<const N: usize> Ways<N> {
+    /// Of so many rows at a time.
+    const fn of(parents: &[Option<usize>; N], rows: usize) -> Self {
         let (mut below, mut beyond) = ([[false; N]; N], [[false; N]; N]);
         let mut tip = 0;
         while tip < N {
             let mut on_the_way = Some(tip);
             while let Some(k) = on_the_way {
-                below[tip / STRIP][k] = true;
-                beyond[k / STRIP][tip] = true;
+                below[tip / rows][k] = true;
+                beyond[k / rows][tip] = true;
                 on_the_way = parents[k];
             }
             tip += 1;
         }
-        let mut tree = Self { below: [Joints::NONE; N], beyond: [Joints::NONE; N] };
-        let mut strip = 0;
-        while strip < strips(N) {
-            tree.below[strip] = Joints::among(&below[strip]);
-            tree.beyond[strip] = Joints::among(&beyond[strip]);
-            strip += 1;
+        let mut ways = Self { below: [Joints::NONE; N], beyond: [Joints::NONE; N] };
+        let mut part = 0;
+        while part < N.div_ceil(rows) {
+            ways.below[part] = Joints::among(&below[part]);
+            ways.beyond[part] = Joints::among(&beyond[part]);
+            part += 1;
         }
-        tree
+        ways
     }
 
     #[inline(always)]
-    fn below(&self, strip: usize) -> &Joints<N> {
-        self.below.get(strip).unwrap_or(const { &Joints::NONE })
+    fn below(&self, part: usize) -> &Joints<N> {
+        self.below.get(part).unwrap_or(const { &Joints::NONE })
     }
 
     #[inline(always)]
-    fn beyond(&self, strip: usize) -> &Joints<N> {
-        self.beyond.get(strip).unwrap_or(const { &Joints::NONE })
+    fn beyond(&self, part: usize) -> &Joints<N> {
+        self.beyond.get(part).unwrap_or(const { &Joints::NONE })
     }
+}
+
+/// So many rows are solved for at a time: those of a long strip, unless half of the last one would be in vain. Four columns
+/// of it are eight sums of six loads; eight columns of a strip are as many of nine.
+const fn rows_to_solve(n: usize) -> usize {
+    let is_filled = n >= LONG_STRIP && n.div_ceil(LONG_STRIP) * LONG_STRIP == n.div_ceil(STRIP) * STRIP;
+    if is_filled { LONG_STRIP } else { STRIP }
 }
 
 /// `M⁻¹ = R D⁻¹ Rᵀ`, where `M = Lᵀ D L` and `R = L⁻¹`; both are unit lower triangular.
 pub struct Factors<T, const N: usize> {
     /// Where they have entries.
     pub tree: &'static EliminationTree<N>,
-    /// `R`, by columns; what is above a strip of the diagonal has no part in any result.
+    /// `R`, by columns; what is above a long strip of the diagonal has no part in any result.
     pub r: [[T; N]; N],
-    /// `Rᵀ`, by columns; what is below a strip of the diagonal has no part in any result.
+    /// `Rᵀ`, by columns; what is below a long strip of the diagonal has no part in any result.
     pub r_transposed: [[T; N]; N],
     /// `1/D`
     pub inverse_d: [T; N],
@@ -183,16 +215,22 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         let mut solved = blank();
         let minus_inverse_d = self.inverse_d.map(|x| -x);
         macro_rules! solve_by {
-            ($width:ident) => {
+            ($width:ident, $rows:ident) => {
                 let mut halfway = [[T::zero(); N]; $width];
                 for first in parts($width, M) {
                     let Some(columns) = b.get(first..).and_then(<[_]>::first_chunk::<$width>) else { continue };
-                    self.write_halfway(columns, &minus_inverse_d, &mut halfway);
-                    by_rows!(T, ROWS = STRIP, {
+                    by_rows!(T, ROWS = $rows, {
+                        let ways = |row: usize| row / const { rows_to_solve(N) };
+                        let beyond = |strip: usize| self.tree.solved.beyond(ways(strip * STRIP)).iter();
+                        let factors = |k| row_of(columns, k);
+                        multiply::<T, N, $width, ROWS, _>(&self.r_transposed, factors, beyond, &mut halfway);
+                        for column in &mut halfway {
+                            scale(column, &minus_inverse_d);
+                        }
                         for part in (0..N.div_ceil(ROWS)).rev() {
-                            let terms = self.tree.below(part * ROWS / STRIP).iter();
+                            let below = self.tree.solved.below(ways(part * ROWS)).iter();
                             let sums: [[T; ROWS]; $width] =
-                                products(&self.r, |k| row_of(&halfway, k), terms, part);
+                                products(&self.r, |k| row_of(&halfway, k), below, part);
                             put!(solved: [[_; N]; M], first, part, sums);
                         }
                     });
@@ -203,26 +241,15 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         const ONE: usize = 1;
         // As many columns at a time as leave none for last.
         if const { M < COLUMNS } {
-            solve_by!(ONE);
-        } else if const { has_lanes::<T>() } {
-            solve_by!(FEW_COLUMNS);
+            solve_by!(ONE, STRIP);
+        } else if const { has_lanes::<T>() || rows_to_solve(N) == LONG_STRIP } {
+            solve_by!(FEW_COLUMNS, LONG_STRIP);
         } else if const { M.is_multiple_of(SIX) && !M.is_multiple_of(COLUMNS) } {
-            solve_by!(SIX);
+            solve_by!(SIX, STRIP);
         } else {
-            solve_by!(COLUMNS);
+            solve_by!(COLUMNS, STRIP);
         }
         solved
-    }
-
-    /// Writes `D⁻¹ Rᵀ·B`, with the given `D⁻¹`.
-    #[inline(always)]
-    fn write_halfway<const W: usize>(&self, b: &[[T; N]; W], inverse_d: &[T; N], halfway: &mut [[T; N]; W]) {
-        let beyond = |strip: usize| self.tree.beyond(strip).iter();
-        let factors = |k| row_of(b, k);
-        by_rows!(T, ROWS = STRIP, multiply::<T, N, W, ROWS, _>(&self.r_transposed, factors, beyond, halfway));
-        for column in halfway {
-            scale(column, inverse_d);
-        }
     }
 
     /// The derivatives of forward dynamics, as [`forward_from_inverse`](super::forward_from_inverse) says.
@@ -495,7 +522,7 @@ fn invert_columns<T: Scalar, const N: usize, const W: usize, const S: usize>(
 }
 
 /// Writes the transpose of a matrix that is zero above the diagonal and off the tree, both by columns, as far down as the
-/// strip of the diagonal.
+/// long strip of the diagonal.
 #[inline]
 fn transpose_triangular<T: Scalar, const N: usize>(
     m: &[[T; N]; N],
@@ -505,14 +532,18 @@ fn transpose_triangular<T: Scalar, const N: usize>(
     // Lanes of a scalar are no rows: one by one.
     let blocks = if has_lanes::<T>() { 0 } else { N / STRIP };
     for (block, columns) in m.as_chunks::<STRIP>().0.iter().enumerate().take(blocks) {
-        for strip in tree.beyond(block).strips::<STRIP>() {
+        let above = block * STRIP / LONG_STRIP * (LONG_STRIP / STRIP)..block;
+        for strip in tree.beyond(block).strips::<STRIP>().chain(above) {
             if let Some(columns_of_result) = result.as_chunks_mut::<STRIP>().0.get_mut(strip) {
                 write_tile(columns_of_result, block, transposed(tile(columns, strip)));
             }
         }
     }
-    for (k, column) in result.iter_mut().enumerate().skip(blocks * STRIP) {
-        for (value, m) in column.iter_mut().zip(m).take((k / STRIP + 1) * STRIP) {
+    let rest = blocks * STRIP;
+    for (k, column) in result.iter_mut().enumerate() {
+        let first = if k < rest { rest } else { 0 };
+        let end = (k / LONG_STRIP + 1) * LONG_STRIP;
+        for (value, m) in column.iter_mut().zip(m).take(end).skip(first) {
             *value = entry(m, k);
         }
     }

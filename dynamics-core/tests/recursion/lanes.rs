@@ -1,5 +1,6 @@
 //! The matrices in lanes, against the recursion link by link.
 
+use dynamics_core::__private::EliminationTree;
 use dynamics_core::__private::recursion::{Drive, Joint, Tree};
 #[cfg(feature = "simd")]
 use dynamics_core::lanes::{Lanes, f64x2, f64x4, f64x8};
@@ -8,7 +9,7 @@ use dynamics_core::prelude::*;
 #[cfg(feature = "simd")]
 use super::robots::lifted;
 use super::robots::{Robot, Shape};
-use super::{TOLERANCE, close, with_stack};
+use super::{TOLERANCE, TOLERANCE_OF_SOLUTIONS, close, with_stack};
 #[cfg(feature = "simd")]
 use crate::common::{bits_of_lane, in_lanes_of};
 use crate::common::{random_numbers, random_vector};
@@ -26,6 +27,18 @@ fn driven_directly<const NL: usize, const NQ: usize, const N: usize>(
         }
     }
     robot
+}
+
+/// By which M is factored: the speed before each on its way to the base; those of a free one follow each other.
+fn elimination<const NL: usize, const NQ: usize, const N: usize>(
+    tree: &Tree<f64, NL, NQ, N>,
+) -> &'static EliminationTree<N> {
+    let before = N.saturating_sub(NL); // so many speeds of a free base but the first
+    let parent = |speed: usize| match speed.checked_sub(before) {
+        Some(link) if link > 0 || before == 0 => tree.links[link].parent.map(|parent| parent + before),
+        _ => speed.checked_sub(1),
+    };
+    Box::leak(Box::new(EliminationTree::of(core::array::from_fn(parent))))
 }
 
 /// Whether right after each link comes all that hangs on it.
@@ -53,8 +66,24 @@ fn agrees<const NL: usize, const NQ: usize, const N: usize>(robot: &Robot<NL, NQ
     let (tau, derivatives) = lanes.inverse_dynamics_with_derivatives(&q, &v, &a);
     close(&tau, &tree.inverse_dynamics(&q, &v, &a), TOLERANCE);
     assert_eq!(derivatives, ours);
+    let by = elimination(tree);
+    let (ours, theirs) =
+        (lanes.forward_dynamics_derivatives(&q, &v, &a, by), tree.forward_dynamics_derivatives(&q, &v, &a));
+    close(&ours.da_dq, &theirs.da_dq, TOLERANCE_OF_SOLUTIONS);
+    close(&ours.da_dv, &theirs.da_dv, TOLERANCE_OF_SOLUTIONS);
+    close(&ours.da_dtau, &theirs.da_dtau, TOLERANCE_OF_SOLUTIONS);
+    let (found, derivatives) = lanes.forward_dynamics_with_derivatives(&q, &v, &a, by);
+    close(&found, &tree.forward_dynamics(&q, &v, &a), TOLERANCE_OF_SOLUTIONS);
+    assert_eq!(derivatives, ours);
+}
+
+/// The same of several states as one scalar: as much code again for each width. So not for each size, but where what is left
+/// over of rows and columns differs.
+fn agrees_in_lanes<const NL: usize, const NQ: usize, const N: usize>(robot: &Robot<NL, NQ, N>, seed: u64) {
+    agrees(robot, seed);
     #[cfg(feature = "simd")]
     {
+        let mut random = random_numbers(seed);
         each_state_has_the_bits_of_one::<f64x2, NL, NQ, N>(robot, &mut random);
         each_state_has_the_bits_of_one::<f64x4, NL, NQ, N>(robot, &mut random);
         each_state_has_the_bits_of_one::<f64x8, NL, NQ, N>(robot, &mut random);
@@ -83,6 +112,8 @@ fn each_state_has_the_bits_of_one<
     let m = wide.mass_matrix(&wide_q);
     let c = wide.coriolis_matrix(&wide_q, &wide_v);
     let (tau, derivatives) = wide.inverse_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a);
+    let by = elimination(&robot.tree);
+    let (found, responses) = wide.forward_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a, by);
     for (lane, ((q, v), a)) in q.iter().zip(&v).zip(&a).enumerate() {
         let check = |found: &SMatrix<L, N, N>, expected: SMatrix<f64, N, N>| {
             assert_eq!(bits_of_lane(found, lane), expected.map(f64::to_bits));
@@ -94,18 +125,38 @@ fn each_state_has_the_bits_of_one<
         check(&derivatives.dtau_dq, expected.dtau_dq);
         check(&derivatives.dtau_dv, expected.dtau_dv);
         check(&derivatives.dtau_da, expected.dtau_da);
+        let (accelerations, expected) = single.forward_dynamics_with_derivatives(q, v, a, by);
+        assert_eq!(bits_of_lane(&found, lane), accelerations.map(f64::to_bits));
+        check(&responses.da_dq, expected.da_dq);
+        check(&responses.da_dv, expected.da_dv);
+        check(&responses.da_dtau, expected.da_dtau);
     }
 }
 
-/// With room for unoptimised code on eight states at once.
 fn chain_agrees<const N: usize>(joints: &'static str, seed: u64) {
     with_stack(8 << 20, move || agrees(&driven_directly::<N, N, N>(joints, Shape::Chain, seed), seed));
+}
+
+/// With room for unoptimised code on eight states at once.
+fn chain_agrees_in_lanes<const N: usize>(joints: &'static str, seed: u64) {
+    with_stack(16 << 20, move || {
+        agrees_in_lanes(&driven_directly::<N, N, N>(joints, Shape::Chain, seed), seed);
+    });
 }
 
 /// The same of one that floats.
 fn floating_chain_agrees<const NL: usize, const NQ: usize, const N: usize>(joints: &'static str, seed: u64) {
     with_stack(8 << 20, move || {
         agrees(&driven_directly::<NL, NQ, N>(&floating::<NL>(joints), Shape::Chain, seed), seed);
+    });
+}
+
+fn floating_chain_agrees_in_lanes<const NL: usize, const NQ: usize, const N: usize>(
+    joints: &'static str,
+    seed: u64,
+) {
+    with_stack(16 << 20, move || {
+        agrees_in_lanes(&driven_directly::<NL, NQ, N>(&floating::<NL>(joints), Shape::Chain, seed), seed);
     });
 }
 
@@ -118,16 +169,16 @@ fn floating<const NL: usize>(joints: &str) -> String {
 fn chains_of_every_length_agree() {
     chain_agrees::<0>("R", 1);
     chain_agrees::<1>("P", 2);
-    chain_agrees::<3>("RPR", 3);
+    chain_agrees_in_lanes::<3>("RPR", 3);
     chain_agrees::<4>("RRPR", 4);
     chain_agrees::<5>("RuPpR", 5);
-    chain_agrees::<8>("RRP", 12);
+    chain_agrees_in_lanes::<8>("RRP", 12);
     chain_agrees::<10>("RPR", 13);
     chain_agrees::<11>("RRPR", 14);
-    chain_agrees::<13>("RRP", 15);
+    chain_agrees_in_lanes::<13>("RRP", 15);
     chain_agrees::<15>("RPRR", 16);
     chain_agrees::<16>("RPRuR", 6);
-    chain_agrees::<18>("RRP", 7);
+    chain_agrees_in_lanes::<18>("RRP", 7);
     chain_agrees::<31>("RRRP", 8);
 }
 
@@ -137,7 +188,7 @@ fn floating_chains_of_every_length_agree() {
     floating_chain_agrees::<2, 8, 7>("P", 22);
     floating_chain_agrees::<3, 9, 8>("RP", 23);
     floating_chain_agrees::<6, 12, 11>("RuPpR", 24);
-    floating_chain_agrees::<8, 14, 13>("RRP", 25);
+    floating_chain_agrees_in_lanes::<8, 14, 13>("RRP", 25);
     floating_chain_agrees::<11, 17, 16>("RRPR", 26);
     floating_chain_agrees::<22, 28, 27>("RPRRR", 27);
 }
@@ -163,10 +214,13 @@ fn nothing_is_lost_where_a_robot_floats_far_away() {
 fn branched_trees_agree() {
     let (mut seen, mut floating_seen) = (0, 0);
     for seed in 0..400 {
-        seen +=
-            usize::from(agrees_if_branched(&driven_directly::<9, 9, 9>("RPR", Shape::Branched, seed), seed));
+        seen += usize::from(agrees_if_branched(
+            &driven_directly("RPR", Shape::Branched, seed),
+            seed,
+            agrees::<9, 9, 9>,
+        ));
         let robot = driven_directly::<8, 14, 13>(&floating::<8>("RPR"), Shape::Branched, seed);
-        floating_seen += usize::from(agrees_if_branched(&robot, seed));
+        floating_seen += usize::from(agrees_if_branched(&robot, seed, agrees_in_lanes));
     }
     assert!(seen > 5 && floating_seen > 5, "only {seen} and {floating_seen} trees in the order of a walk");
 }
@@ -175,6 +229,7 @@ fn branched_trees_agree() {
 fn agrees_if_branched<const NL: usize, const NQ: usize, const N: usize>(
     robot: &Robot<NL, NQ, N>,
     seed: u64,
+    agrees: fn(&Robot<NL, NQ, N>, u64),
 ) -> bool {
     let links = &robot.tree.links;
     let is_branched = is_walk(&robot.tree) && links.windows(2).any(|two| two[0].parent == two[1].parent);
@@ -187,17 +242,17 @@ fn agrees_if_branched<const NL: usize, const NQ: usize, const N: usize>(
 /// Legs of three on every second link of a spine: what hangs on a link ends within other groups.
 #[test]
 fn legs_along_a_spine_agree() {
-    with_stack(8 << 20, spines_agree);
+    with_stack(16 << 20, spines_agree);
 }
 
 fn spines_agree() {
     let parents = [0, 1, 2, 0, 4, 5, 6, 4, 8, 9, 10, 8, 12, 13, 8, 15, 0, 17, 18, 19, 17, 17].map(Some);
     let mut robot = driven_directly::<23, 23, 23>("RRRP", Shape::Chain, 9);
     hang(&mut robot, &parents);
-    agrees(&robot, 10);
+    agrees_in_lanes(&robot, 10);
     let mut floating = driven_directly::<23, 29, 28>(&floating::<23>("RRRP"), Shape::Chain, 9);
     hang(&mut floating, &parents);
-    agrees(&floating, 10);
+    agrees_in_lanes(&floating, 10);
 
     // Two robots on one world; and one that floats beside one that does not.
     let mut parents = parents;

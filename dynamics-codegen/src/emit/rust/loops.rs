@@ -22,7 +22,9 @@ pub(super) fn by_loops(
             "        (self.inverse_dynamics(q, v, a), self.inverse_dynamics_derivatives(q, v, a))\n"
                 .to_owned()
         }
-        Method::InverseMassMatrix => tree(parents) + "        inverse_of(&self.mass_matrix(q), tree)\n",
+        Method::InverseMassMatrix => {
+            elimination_tree(parents) + "        inverse_of(&self.mass_matrix(q), tree)\n"
+        }
         _ => {
             let solved = solved(method, "&inverse", "&factors");
             format!("{}        {solved}\n", before_solving(parents, factoring, context))
@@ -80,7 +82,7 @@ fn solved(method: Method, inverse: &str, factors: &str) -> String {
 
 /// The statements from the arguments to what is solved with.
 fn before_solving(parents: &[Option<usize>], factoring: Option<&Program>, context: &Context<'_>) -> String {
-    let mut text = tree(parents);
+    let mut text = elimination_tree(parents);
     text.push_str("        let a = self.forward_dynamics(q, v, tau);\n");
     text.push_str("        let inverse = self.inverse_dynamics_derivatives(q, v, &a);\n");
     text.push_str(&match factoring {
@@ -92,7 +94,7 @@ fn before_solving(parents: &[Option<usize>], factoring: Option<&Program>, contex
 }
 
 /// The statement that names the tree of the factors.
-fn tree(parents: &[Option<usize>]) -> String {
+pub(super) fn elimination_tree(parents: &[Option<usize>]) -> String {
     format!("        let tree = const {{ &EliminationTree::of({parents:?}) }};\n")
 }
 

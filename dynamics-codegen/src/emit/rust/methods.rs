@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use super::context::Context;
 use super::equations;
-use super::loops::{by_loops, by_shared_loops, shared_loops};
+use super::loops::{by_loops, by_shared_loops, elimination_tree, shared_loops};
 use crate::emit::body::{self, Body};
 use crate::mechanics::equations::{Argument, Block, Input, Method, Shape};
 use crate::passes::{CompiledMethod, Cost, Plan, Program, Sizes};
@@ -41,8 +41,8 @@ pub(super) fn write(
     text.push_str(&documentation(*method, context));
     let operations = describe(*cost);
     let _ = match plan {
-        Plan::Table { in_lanes, .. } => {
-            let how = if *in_lanes { ", in lanes" } else { "" };
+        Plan::Table { lanes, .. } => {
+            let how = if lanes.is_some() { ", in lanes" } else { "" };
             writeln!(text, "    ///\n    /// By recursion over a table of links{how}: about {operations}.")
         }
         Plan::StraightLine { program, .. } if program.has_lanes() => writeln!(
@@ -75,7 +75,7 @@ pub(super) fn write(
                 }
             }
         }
-        Plan::Table { frame: None, in_lanes } => by_table(*method, *in_lanes, scalar, context.sizes),
+        Plan::Table { frame: None, lanes } => by_table(*method, lanes.as_deref(), scalar, context.sizes),
         Plan::Table { frame: Some((link, program)), .. } => {
             frame_by_table(*method, *link, program, context, scalar, robot)
         }
@@ -146,15 +146,22 @@ fn by_shared(method: Method, bundle: Method, scalar: &str, sizes: Sizes) -> Stri
     )
 }
 
-/// The body that leaves everything to the run time's recursion.
-fn by_table(method: Method, in_lanes: bool, scalar: &str, sizes: Sizes) -> String {
+/// The body that leaves everything to the run time's recursion; in lanes, it is told by which tree to factor M.
+fn by_table(method: Method, lanes: Option<&[Option<usize>]>, scalar: &str, sizes: Sizes) -> String {
     let arguments = typed_arguments(method, scalar, sizes);
-    let lanes = if in_lanes { ".in_lanes()" } else { "" };
+    let solves =
+        matches!(method, Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives);
+    let tree = lanes.filter(|_| solves);
+    let (name, passed_on) = (method.name(), pass_on(method));
+    let call = match (lanes, tree) {
+        (None, _) => format!("{name}({passed_on})"),
+        (Some(_), None) => format!("in_lanes().{name}({passed_on})"),
+        (Some(_), Some(_)) => format!("in_lanes().{name}({passed_on}, tree)"),
+    };
     format!(
-        "    fn {0}(&self{arguments}) -> {1} {{\n        self.__table(|table| table{lanes}.{0}({2}))\n    }}\n",
-        method.name(),
+        "    fn {name}(&self{arguments}) -> {} {{\n{}        self.__table(|table| table.{call})\n    }}\n",
         return_type(method, scalar, sizes),
-        pass_on(method)
+        tree.map(elimination_tree).unwrap_or_default(),
     )
 }
 

@@ -17,6 +17,7 @@
 //! At 32 joints this is two to three times as fast as a straight line, whose code is too long for the cache.
 
 mod bodies;
+mod derivatives;
 mod matrices;
 mod motion;
 mod pairs;

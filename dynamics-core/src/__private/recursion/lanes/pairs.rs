@@ -8,10 +8,8 @@ use super::bodies::WrenchesInLanes;
 use super::motion::TwistsInLanes;
 use super::place::Placed;
 use super::{InLanes, Vectors, set};
-use crate::__private::columns;
 use crate::__private::in_place::{blank, laid_down, mirror, put};
 use crate::__private::recursion::vector::Vector;
-use crate::dynamics::InverseDynamicsDerivatives;
 use crate::product::{COLUMNS, FEW_COLUMNS, STRIP, by_rows, first_of, has_lanes, parts, products};
 use crate::scalar::Scalar;
 
@@ -188,25 +186,6 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
             m[k][k] = m[k][k] + *entry;
         }
         m
-    }
-
-    /// The derivatives of inverse dynamics: by places and by speeds from these changes, and `M`.
-    ///
-    /// Here, with what it calls: where LLVM does not see both together, it makes two of the matrices elsewhere and copies
-    /// them.
-    #[inline(never)]
-    pub(super) fn derivatives(
-        &self,
-        [of_places, of_speeds]: [&Changes<T, N>; 2],
-        nu: &Vectors<T, N>,
-        [by_place, by_speed]: [&[T; N]; 2],
-        armatures: &[T; N],
-    ) -> InverseDynamicsDerivatives<T, N> {
-        InverseDynamicsDerivatives {
-            dtau_dq: columns(self.changes(of_places, nu, T::one(), by_place)),
-            dtau_dv: columns(self.changes(of_speeds, nu, T::of(2.0), by_speed)), // ∂τ/∂v = 2C
-            dtau_da: columns(self.mass_matrix(armatures)),
-        }
     }
 
     /// The twists and turns of the changes of W joints, `scale` times.
