@@ -142,8 +142,8 @@ pub(crate) fn products<T: Scalar, const R: usize, const W: usize, const S: usize
     sums
 }
 
-/// Writes W columns of a product: in each of the strips of rows the sum of column `k` of `a` times `factors(k)` over
-/// all `k` in `terms(strip)`. S rows at a time, of which strips are made.
+/// Writes W columns of a product: S rows at a time, from `row` on, the sum of column `k` of `a` times `factors(k)` over all `k`
+/// in `terms(row)`.
 #[inline(always)]
 pub(crate) fn multiply<
     T: Scalar,
@@ -158,7 +158,7 @@ pub(crate) fn multiply<
     result: &mut [[T; R]; W],
 ) {
     for part in (0..R.div_ceil(S)).rev() {
-        let sums: [[T; S]; W] = products(a, &factors, terms(part * S / STRIP), part);
+        let sums: [[T; S]; W] = products(a, &factors, terms(part * S), part);
         write_strip(result, part, &sums);
     }
 }

@@ -12,6 +12,7 @@ mod robots;
 
 use crate::common::dual::Dual;
 use crate::common::{random_numbers, random_vector};
+use dynamics_core::__private::EliminationTree;
 use dynamics_core::__private::recursion::{Drive, Joint, Link, Masses, Passive, Tree, same};
 use dynamics_core::prelude::*;
 
@@ -123,6 +124,31 @@ fn a_hundred_joints_fit_on_a_small_stack() {
     for call in calls {
         let tree = tree.clone();
         with_stack(1_500 << 10, move || assert!(call(&tree, &SVector::repeat(0.5)).is_finite()));
+    }
+}
+
+/// The same in lanes, on what a thread has if nobody asks for more.
+#[test]
+fn a_hundred_joints_in_lanes_fit_on_the_stack_of_a_thread() {
+    type Call = fn(&Tree<f64, 100, 100, 100>, &SVector<f64, 100>) -> f64;
+    let calls: [Call; 4] = [
+        |tree, x| tree.in_lanes().mass_matrix(x)[0],
+        |tree, x| tree.in_lanes().coriolis_matrix(x, x)[0],
+        |tree, x| tree.in_lanes().inverse_dynamics_derivatives(x, x, x).dtau_dq[0],
+        |tree, x| {
+            let by = const { &EliminationTree::CHAIN };
+            tree.in_lanes().forward_dynamics_derivatives(x, x, x, by).da_dq[0]
+        },
+    ];
+    let mut tree = Box::new(Robot::<100, 100, 100>::random("R", Shape::Chain, 4).tree);
+    for (k, link) in tree.links.iter_mut().enumerate() {
+        if let Joint::Revolute(drive, _) = &mut link.joint {
+            *drive = Drive { q: k, v: k, ratio: 1.0, offset: 0.0 };
+        }
+    }
+    for call in calls {
+        let tree = tree.clone();
+        with_stack(2 << 20, move || assert!(call(&tree, &SVector::repeat(0.5)).is_finite()));
     }
 }
 

@@ -271,12 +271,10 @@ impl Plans {
     }
 
     /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since
-    /// nothing is known to be zero. Derivatives of forward dynamics begin with forces and derivatives of the inverse.
+    /// nothing is known to be zero. Derivatives of forward dynamics begin as those of the inverse do.
     pub(super) fn cost_of_table(&self, method: Method) -> Cost {
         if let Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives = method {
-            let before = [Method::BiasForces, Method::InverseDynamicsDerivatives];
-            let own = self.cost_of_loops(method, None);
-            return before.into_iter().fold(own, |sum, method| sum + self.cost_of_table(method));
+            return self.cost_of_loops(method, None) + self.cost_of_table(Method::InverseDynamicsDerivatives);
         }
         let count = u32::try_from(3 * self.statements(method)).unwrap_or(u32::MAX);
         let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);

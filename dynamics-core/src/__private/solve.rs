@@ -162,8 +162,8 @@ impl<const N: usize> Ways<N> {
     }
 }
 
-/// So many rows are solved for at a time: those of a long strip, unless half of the last one would be in vain. Four columns
-/// of it are eight sums of six loads; eight columns of a strip are as many of nine.
+/// So many rows are solved for at a time: those of a long strip, unless half of the last one would be in vain. With registers of
+/// four doubles four columns of it are eight sums of six loads; eight columns of a strip are as many of nine.
 const fn rows_to_solve(n: usize) -> usize {
     let is_filled = n >= LONG_STRIP && n.div_ceil(LONG_STRIP) * LONG_STRIP == n.div_ceil(STRIP) * STRIP;
     if is_filled { LONG_STRIP } else { STRIP }
@@ -221,7 +221,7 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
                     let Some(columns) = b.get(first..).and_then(<[_]>::first_chunk::<$width>) else { continue };
                     by_rows!(T, ROWS = $rows, {
                         let ways = |row: usize| row / const { rows_to_solve(N) };
-                        let beyond = |strip: usize| self.tree.solved.beyond(ways(strip * STRIP)).iter();
+                        let beyond = |row: usize| self.tree.solved.beyond(ways(row)).iter();
                         let factors = |k| row_of(columns, k);
                         multiply::<T, N, $width, ROWS, _>(&self.r_transposed, factors, beyond, &mut halfway);
                         for column in &mut halfway {
@@ -239,10 +239,15 @@ impl<T: Scalar, const N: usize> Factors<T, N> {
         }
         const SIX: usize = 6;
         const ONE: usize = 1;
-        // As many columns at a time as leave none for last.
+        let by_long_strips = const { LONG_STRIP > STRIP && rows_to_solve(N) == LONG_STRIP };
+        // As many columns at a time as leave none for last, where a strip leaves room for many.
         if const { M < COLUMNS } {
-            solve_by!(ONE, STRIP);
-        } else if const { has_lanes::<T>() || rows_to_solve(N) == LONG_STRIP } {
+            if by_long_strips {
+                solve_by!(ONE, LONG_STRIP);
+            } else {
+                solve_by!(ONE, STRIP);
+            }
+        } else if by_long_strips || const { has_lanes::<T>() } {
             solve_by!(FEW_COLUMNS, LONG_STRIP);
         } else if const { M.is_multiple_of(SIX) && !M.is_multiple_of(COLUMNS) } {
             solve_by!(SIX, STRIP);

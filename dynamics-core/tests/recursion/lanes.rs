@@ -207,6 +207,11 @@ fn nothing_is_lost_where_a_robot_floats_far_away() {
         lanes.inverse_dynamics_with_derivatives(&far, &v, &a),
         lanes.inverse_dynamics_with_derivatives(&q, &v, &a)
     );
+    let by = elimination(&robot.tree);
+    assert_eq!(
+        lanes.forward_dynamics_with_derivatives(&far, &v, &a, by),
+        lanes.forward_dynamics_with_derivatives(&q, &v, &a, by)
+    );
 }
 
 /// Branches within a group of four, and across several.

@@ -49,7 +49,13 @@ fn main() -> ExitCode {
 #[derive(Dynamics)]
 #[dynamics(
     urdf = "robots/chain32.urdf",
-    outputs(mass_matrix, coriolis_matrix, inverse_mass_matrix, inverse_dynamics_derivatives)
+    outputs(
+        mass_matrix,
+        coriolis_matrix,
+        inverse_mass_matrix,
+        inverse_dynamics_derivatives,
+        forward_dynamics_derivatives
+    )
 )]
 #[joint(joint30, locked = 0)]
 #[joint(joint31, locked = 0)]
@@ -70,6 +76,7 @@ fn call_each() {
     chain.enter("C", |s| Chain29.coriolis_matrix(&s.q, &s.v));
     chain.enter("1/M", |s| Chain29.inverse_mass_matrix(&s.q));
     chain.enter("dID", |s| Chain29.inverse_dynamics_derivatives(&s.q, &s.v, &s.a));
+    chain.enter("dFD", |s| Chain29.forward_dynamics_derivatives(&s.q, &s.v, &s.a));
 }
 
 struct OneCallEach;

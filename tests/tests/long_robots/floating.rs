@@ -4,7 +4,7 @@ crate::robot! {
     Floating, &[Part::Free, Part::Lines(18)];
     /// Alike links one after the other, and what acts in joints by itself.
     #[dynamics(outputs(equations_of_motion, coriolis_matrix, inverse_dynamics, forward_dynamics,
-        inverse_dynamics_derivatives, forward_dynamics_derivatives))]
+        inverse_dynamics_derivatives, forward_dynamics_derivatives, forward_dynamics_with_derivatives))]
     #[joint(base: free, world -> b0, at = [1, 2, 3], rpy = [0.3, 0.2, 0.1])]
     #[body(b0, mass = 1.2, com = [0.02, 0.01, 0.03], inertia = tensor(0.002, 0.0001, 0, 0.003, 0.0002, 0.003))]
     #[joint(j1: revolute(y), b0 -> b1, at = [0.05, 0, 0])]
@@ -55,9 +55,30 @@ crate::robot! {
 #[test]
 fn matrices_are_in_lanes() {
     let text = crate::generated(&entry());
-    assert!(text.contains("self.__table(|table| table.in_lanes()."));
+    for call in [
+        "coriolis_matrix(q, v)",
+        "inverse_dynamics_derivatives(q, v, a)",
+        "forward_dynamics_derivatives(q, v, tau, tree)",
+        "forward_dynamics_with_derivatives(q, v, tau, tree)",
+    ] {
+        let call = format!("self.__table(|table| table.in_lanes().{call})");
+        assert!(text.contains(&call), "there is no `{call}`");
+    }
     assert!(
         text.contains("static DOUBLE: recursion::Tree<f64, "),
         "its numbers stand in memory that is never written"
     );
+}
+
+/// The accelerations that come of M and its factors are as exact as those of the articulated bodies.
+#[test]
+fn accelerations_with_their_derivatives_answer_the_forces() {
+    for_each_state(&entry(), |oracle, StateOf { q, v, tau, .. }, _| {
+        let [qs, vs, forces] = [q, v, tau].map(Vector::as_slice);
+        let (q, v, tau) = (fixed(q), fixed(v), fixed(tau));
+        let (a, derivatives) = Floating.forward_dynamics_with_derivatives(&q, &v, &tau);
+        let residual = oracle.forward_dynamics_residual(qs, vs, forces, a.as_slice());
+        assert!(residual <= ROUNDING, "a misses τ by {residual:.1e}");
+        assert_eq!(derivatives, Floating.forward_dynamics_derivatives(&q, &v, &tau));
+    });
 }

@@ -153,13 +153,10 @@ fn by_table(method: Method, lanes: Option<&[Option<usize>]>, scalar: &str, sizes
         matches!(method, Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives);
     let tree = lanes.filter(|_| solves);
     let (name, passed_on) = (method.name(), pass_on(method));
-    let call = match (lanes, tree) {
-        (None, _) => format!("{name}({passed_on})"),
-        (Some(_), None) => format!("in_lanes().{name}({passed_on})"),
-        (Some(_), Some(_)) => format!("in_lanes().{name}({passed_on}, tree)"),
-    };
+    let way = if lanes.is_some() { "in_lanes()." } else { "" };
+    let by_tree = if tree.is_some() { ", tree" } else { "" };
     format!(
-        "    fn {name}(&self{arguments}) -> {} {{\n{}        self.__table(|table| table.{call})\n    }}\n",
+        "    fn {name}(&self{arguments}) -> {} {{\n{}        self.__table(|table| table.{way}{name}({passed_on}{by_tree}))\n    }}\n",
         return_type(method, scalar, sizes),
         tree.map(elimination_tree).unwrap_or_default(),
     )

@@ -6,7 +6,7 @@
 //!
 //! J. Carpentier, N. Mansard, *Analytical derivatives of rigid body dynamics algorithms*, RSS 2018.
 
-use nalgebra::SVector;
+use nalgebra::{SMatrix, SVector};
 
 use super::bodies::{MomentaInLanes, MomentsInLanes, WrenchesInLanes};
 use super::matrices::{by_speed, set_momenta, set_rows};
@@ -49,9 +49,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let mut moving = Moving::zero();
         self.set_moving(entries(q), entries(v), entries(a), &mut moving);
         self.collect(&mut moving);
-        let [mut tau] = self.tree.passive_forces(q, v).data.0;
-        self.tree.add_armature_forces(entries(a), &mut tau);
-        moving.add_along_joints(&mut tau);
+        let tau = self.forces(&self.tree.passive_forces(q, v), entries(a), &moving);
         (vector(tau), self.differentiated(v, &moving))
     }
 
@@ -82,10 +80,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     #[inline(always)]
     fn differentiated(&self, v: &SVector<T, N>, moving: &Moving<T, N>) -> InverseDynamicsDerivatives<T, N> {
         let (mut changing, mut rows) = (Changing::zero(), WrenchesInLanes::zero());
-        self.change(moving, &mut changing);
+        self.change(v, moving, &mut changing);
         set_rows(&moving.placed, &moving.moments, &mut rows);
-        let (armatures, slopes) = (self.armatures(), self.passive_slopes(entries(v)));
-        inverse_dynamics_derivatives(&self.pairs(&moving.placed, &rows), &changing, &slopes, &armatures)
+        inverse_dynamics_derivatives(&self.pairs(&moving.placed, &rows), &changing, &self.armatures())
     }
 
     /// What `finish` makes of the acceleration, and of what its derivatives come of: they are computed where it puts them.
@@ -103,14 +100,12 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let mut rows = WrenchesInLanes::zero();
         set_rows(&moving.placed, &moving.moments, &mut rows);
         let mut factors = Factors::new(tree);
-        factors.factor(&self.pairs(&moving.placed, &rows).mass_matrix(&self.armatures()));
+        factor(&self.pairs(&moving.placed, &rows), &self.armatures(), &mut factors);
 
         let passive = self.tree.passive_forces(q, v);
         let mut a = [T::zero(); N];
         for _ in 0..=REFINEMENTS {
-            let mut missing = *entries(&passive);
-            self.tree.add_armature_forces(&a, &mut missing);
-            moving.add_along_joints(&mut missing);
+            let mut missing = self.forces(&passive, &a, &moving);
             for (force, tau) in missing.iter_mut().zip(entries(tau)) {
                 *force -= *tau;
             }
@@ -121,10 +116,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             }
         }
         let mut changing = Changing::zero();
-        self.change(&moving, &mut changing);
-        let slopes = self.passive_slopes(entries(v));
+        self.change(v, &moving, &mut changing);
         let pairs = self.pairs(&moving.placed, &rows);
-        finish(a, Accelerated { pairs, changing: &changing, slopes: &slopes, factors: &factors })
+        finish(a, Accelerated { pairs, changing: &changing, factors: &factors })
     }
 
     /// Writes, over zeros, how the links move, and of each by itself its moments, its momenta, and the wrench on it.
@@ -152,6 +146,17 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         self.collect_wrenches(placed, wrenches);
     }
 
+    /// `τ`: what the joints feel of the wrenches, of armatures at accelerations `a`, and of passive forces.
+    #[inline(always)]
+    fn forces(&self, passive: &SVector<T, N>, a: &[T; N], moving: &Moving<T, N>) -> [T; N] {
+        let mut forces = *entries(passive);
+        self.tree.add_armature_forces(a, &mut forces);
+        for (k, force) in forces.iter_mut().enumerate() {
+            *force += moving.placed.twist(k).dot(moving.wrenches.at(k));
+        }
+        forces
+    }
+
     /// Adds what joint accelerations add: to the accelerations, and to the wrenches on all that hangs on each joint, by the
     /// links' own moments.
     #[inline(always)]
@@ -171,8 +176,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
 
     /// Writes how the joints change by place and by speed.
     #[inline(always)]
-    fn change(&self, moving: &Moving<T, N>, changing: &mut Changing<T, N>) {
-        let Changing { by_place, by_speed: changes, nu } = changing;
+    fn change(&self, v: &SVector<T, N>, moving: &Moving<T, N>, changing: &mut Changing<T, N>) {
+        let Changing { by_place, by_speed: changes, nu, slopes } = changing;
+        *slopes = self.passive_slopes(entries(v));
         by_speed(&moving.placed, &moving.velocities, (&moving.moments, &moving.momenta), changes, nu);
         moving.change_by_place(changes, by_place);
         self.change_base(moving, [by_place, changes]);
@@ -219,14 +225,6 @@ impl<T: Scalar, const N: usize> Moving<T, N> {
         }
     }
 
-    /// Adds what the joints feel of the wrenches.
-    #[inline(always)]
-    fn add_along_joints(&self, forces: &mut [T; N]) {
-        for (k, force) in forces.iter_mut().enumerate() {
-            *force += self.placed.twist(k).dot(self.wrenches.at(k));
-        }
-    }
-
     /// Writes the changes of `∂τ/∂q`, from those of C.
     #[inline(always)]
     fn change_by_place(&self, by_speed: &Changes<T, N>, by_place: &mut Changes<T, N>) {
@@ -243,17 +241,19 @@ impl<T: Scalar, const N: usize> Moving<T, N> {
     }
 }
 
-/// How the joints change by place and by speed, the latter as C asks for it, and ν.
+/// How the joints change by place and by speed, the latter as C asks for it, ν, and what passive forces add for each.
 struct Changing<T, const N: usize> {
     by_place: Changes<T, N>,
     by_speed: Changes<T, N>,
     nu: Vectors<T, N>,
+    slopes: [[T; N]; 2],
 }
 
 impl<T: Scalar, const N: usize> Changing<T, N> {
     #[inline(always)]
     fn zero() -> Self {
-        Self { by_place: Changes::zero(), by_speed: Changes::zero(), nu: Vectors::zero() }
+        let slopes = [[T::zero(); N]; 2];
+        Self { by_place: Changes::zero(), by_speed: Changes::zero(), nu: Vectors::zero(), slopes }
     }
 }
 
@@ -263,12 +263,11 @@ impl<T: Scalar, const N: usize> Changing<T, N> {
 fn inverse_dynamics_derivatives<T: Scalar, const N: usize>(
     pairs: &Pairs<'_, T, N>,
     changing: &Changing<T, N>,
-    slopes: &[[T; N]; 2],
     armatures: &[T; N],
 ) -> InverseDynamicsDerivatives<T, N> {
     InverseDynamicsDerivatives {
-        dtau_dq: columns(pairs.dtau_dq(changing, slopes)),
-        dtau_dv: columns(pairs.dtau_dv(changing, slopes)),
+        dtau_dq: columns(pairs.dtau_dq(changing)),
+        dtau_dv: columns(pairs.dtau_dv(changing)),
         dtau_da: columns(pairs.mass_matrix(armatures)),
     }
 }
@@ -277,31 +276,47 @@ fn inverse_dynamics_derivatives<T: Scalar, const N: usize>(
 struct Accelerated<'a, T, const N: usize> {
     pairs: Pairs<'a, T, N>,
     changing: &'a Changing<T, N>,
-    slopes: &'a [[T; N]; 2],
     factors: &'a Factors<T, N>,
 }
 
 impl<T: Scalar, const N: usize> Accelerated<'_, T, N> {
     #[inline(never)]
     fn derivatives(&self) -> ForwardDynamicsDerivatives<T, N> {
-        let Self { pairs, changing, slopes, factors } = self;
+        let Self { pairs, changing, factors } = self;
         ForwardDynamicsDerivatives {
-            da_dq: columns(factors.minus_solved(&pairs.dtau_dq(changing, slopes))),
-            da_dv: columns(factors.minus_solved(&pairs.dtau_dv(changing, slopes))),
+            da_dq: minus_solved(factors, || pairs.dtau_dq(changing)),
+            da_dv: minus_solved(factors, || pairs.dtau_dv(changing)),
             da_dtau: columns(factors.inverse()),
         }
     }
 }
 
+// On their own, for the stack of unoptimised builds: there each step between is a matrix.
+
+fn minus_solved<T: Scalar, const N: usize>(
+    factors: &Factors<T, N>,
+    b: impl FnOnce() -> Square<T, N>,
+) -> SMatrix<T, N, N> {
+    columns(factors.minus_solved(&b()))
+}
+
+fn factor<T: Scalar, const N: usize>(
+    pairs: &Pairs<'_, T, N>,
+    armatures: &[T; N],
+    factors: &mut Factors<T, N>,
+) {
+    factors.factor(&pairs.mass_matrix(armatures));
+}
+
 impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     #[inline(always)]
-    fn dtau_dq(&self, changing: &Changing<T, N>, [slopes, _]: &[[T; N]; 2]) -> Square<T, N> {
-        self.changes(&changing.by_place, &changing.nu, T::one(), slopes)
+    fn dtau_dq(&self, Changing { by_place, nu, slopes: [slopes, _], .. }: &Changing<T, N>) -> Square<T, N> {
+        self.changes(by_place, nu, T::one(), slopes)
     }
 
     /// 2C, and what passive forces add.
     #[inline(always)]
-    fn dtau_dv(&self, changing: &Changing<T, N>, [_, slopes]: &[[T; N]; 2]) -> Square<T, N> {
-        self.changes(&changing.by_speed, &changing.nu, T::of(2.0), slopes)
+    fn dtau_dv(&self, Changing { by_speed, nu, slopes: [_, slopes], .. }: &Changing<T, N>) -> Square<T, N> {
+        self.changes(by_speed, nu, T::of(2.0), slopes)
     }
 }

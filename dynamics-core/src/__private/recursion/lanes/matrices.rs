@@ -84,7 +84,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     }
 }
 
-pub(super) type Composites<'a, T, const N: usize> = (&'a MomentsInLanes<T, N>, &'a MomentaInLanes<T, N>);
+type Composites<'a, T, const N: usize> = (&'a MomentsInLanes<T, N>, &'a MomentaInLanes<T, N>);
 
 /// Writes `𝕁 S`: the wrenches of unit motions.
 pub(super) fn set_rows<T: Scalar, const N: usize>(
