@@ -15,12 +15,16 @@ use crate::symbolic::{Expr, Graph, SymbolId};
 /// The most statements of such a program: the loops of the run time take over before rustc takes long.
 const LONGEST: usize = 2_500;
 
+/// Whether there is such a program.
+pub(super) fn is_short(parents: &[Option<usize>]) -> bool {
+    let depth = |k: usize| std::iter::successors(parents[k], |&k| parents[k]).count();
+    (0..parents.len()).map(|k| depth(k) * depth(k)).sum::<usize>() <= LONGEST
+}
+
 /// From the entries of `M` on and below its diagonal, which are its parameters, to `R = L⁻¹`, all of it by rows, and
 /// `1/D`; none where that is too long. `parents` are those by which M is factored.
 pub(super) fn factoring(parents: &[Option<usize>]) -> Option<Program> {
-    let depth = |k: usize| std::iter::successors(parents[k], |&k| parents[k]).count();
-    let statements: usize = (0..parents.len()).map(|k| depth(k) * depth(k)).sum();
-    if statements > LONGEST {
+    if !is_short(parents) {
         return None;
     }
     let graph = Graph::new();
