@@ -75,6 +75,16 @@ fn factors<const N: usize>(m: &[[f64; N]; N], tree: &'static EliminationTree<N>)
 }
 
 fn agrees<const N: usize>(parents: &[Option<usize>; N], tree: &'static EliminationTree<N>) {
+    solves_for_one(parents, tree);
+    #[cfg(feature = "simd")]
+    {
+        each_lane_has_the_bits_of_one::<f64x2, N>(parents, tree);
+        each_lane_has_the_bits_of_one::<f64x4, N>(parents, tree);
+        each_lane_has_the_bits_of_one::<f64x8, N>(parents, tree);
+    }
+}
+
+fn solves_for_one<const N: usize>(parents: &[Option<usize>; N], tree: &'static EliminationTree<N>) {
     let mut random = random_numbers(N as u64);
     let m = mass_matrix(parents, &mut random);
     let mut matrix = || SMatrix::<f64, N, N>::from_fn(|_, _| random());
@@ -85,12 +95,6 @@ fn agrees<const N: usize>(parents: &[Option<usize>; N], tree: &'static Eliminati
     assert!((m * forward.da_dtau - SMatrix::identity()).amax() < TOLERANCE);
     assert_eq!(forward.da_dtau, forward.da_dtau.transpose());
     assert_eq!(inverse_of(&m, tree), forward.da_dtau);
-    #[cfg(feature = "simd")]
-    {
-        each_lane_has_the_bits_of_one::<f64x2, N>(parents, tree);
-        each_lane_has_the_bits_of_one::<f64x4, N>(parents, tree);
-        each_lane_has_the_bits_of_one::<f64x8, N>(parents, tree);
-    }
 }
 
 /// Several matrices as one, of whose scalar rows and columns are taken otherwise. In the last one there are numbers that
@@ -135,11 +139,26 @@ fn solves_what_nalgebra_multiplies() {
     agrees(&LONG, const { &EliminationTree::of(LONG) });
 }
 
-/// Rows and columns of every number beyond whole strips.
+/// Rows and columns of every number beyond whole strips. Where the scalar is lanes of states all goes by four, and any four
+/// lengths in a row are all that there are.
 #[test]
 fn chains_of_every_length_are_solved() {
+    fn parents<const N: usize>() -> [Option<usize>; N] {
+        core::array::from_fn(|k| k.checked_sub(1))
+    }
     fn chain<const N: usize>() {
-        agrees(&core::array::from_fn::<_, N, _>(|k| k.checked_sub(1)), const { &EliminationTree::CHAIN });
+        solves_for_one(&parents(), const { &EliminationTree::<N>::CHAIN });
+    }
+    #[cfg(feature = "simd")]
+    fn lanes<const N: usize>() {
+        each_lane_has_the_bits_of_one::<f64x4, N>(&parents(), const { &EliminationTree::CHAIN });
+    }
+    #[cfg(feature = "simd")]
+    {
+        lanes::<8>();
+        lanes::<9>();
+        lanes::<10>();
+        lanes::<11>();
     }
     chain::<8>();
     chain::<9>();

@@ -1,5 +1,5 @@
-//! All tests of the crate but those that need `serde`, in one program: what they share is compiled once, and long ones
-//! run side by side.
+//! Motions, control, and what is asked of a robot: all tests of the crate but those of `arithmetic.rs` and those that need
+//! `serde`, in one program: what they share is compiled once, and long ones run side by side.
 
 mod common;
 
@@ -10,16 +10,10 @@ mod dynamics;
 mod events;
 mod flow;
 mod kinematics;
-mod lanes;
-mod linear;
-mod linear_reference;
 mod linearize;
-mod manifold;
 mod output;
-mod recursion;
 mod regressor;
 mod simulate;
-mod solve;
 mod state_space;
 mod tossed_box;
 mod trajectory;
