@@ -105,7 +105,7 @@ impl Absence {
         let other = format!("choose another `q` by `{option}`");
         match self {
             Self::TooLong | Self::LoopsWithoutTerms | Self::Massless => {
-                "name the outputs that are needed by `--only`".to_owned()
+                "name the outputs that are needed: `dynamics eval --only`".to_owned()
             }
             Self::Idle(speeds) if speeds.len() == 1 => format!("{other}, where it moves some mass"),
             Self::Idle(_) => {

@@ -8,6 +8,7 @@ use dynamics_view::page::{Matrix, Section, Table, number};
 use dynamics_view::{Chart, Figure, Plane};
 
 use super::Subject;
+use crate::absence::Absence;
 use crate::failure::Failure;
 use crate::linear::{Judgement, eigenvalues, input_matrix, judge, state_matrix};
 use crate::robot::{Robot, State};
@@ -40,6 +41,13 @@ pub(super) fn section(subject: &Subject<'_, '_>, is_held: bool) -> Result<Sectio
     let section = Section::new("linear", "The linear model");
     if robot.dof() == 0 {
         return Ok(section.text("Nothing moves."));
+    }
+    let derivatives = Method::ForwardDynamicsDerivatives;
+    if !robot.has(derivatives) {
+        let why = Absence::of_method(derivatives, robot).fact();
+        return Ok(section.text(&format!(
+            "It is made of the derivatives of forward dynamics, which this robot has not: {why}."
+        )));
     }
     let holding = holding(robot, &subject.at, is_held)?;
     let (a, b) = (state_matrix(robot, &holding.state)?, input_matrix(robot, &holding.state)?);

@@ -5,7 +5,7 @@ use dynamics_core::nalgebra::{SMatrix, SVector};
 use dynamics_view::{Drive, Link, Linkage, Mount};
 use serde_json::{Value, json};
 
-use super::{ROBOTS, dynamics, folder, model};
+use super::{ROBOTS, dynamics, dynamics_on, folder, model};
 
 /// The page of a robot, from standard output.
 fn page(robot: &str, options: &[&str]) -> String {
@@ -333,4 +333,28 @@ fn dissipation_is_told_and_written() {
     let html = dynamics(&["report", &model("iiwa14"), "--time", "0.01"]).ok();
     assert!(text(&html, "equations").contains("M(q)·a + C(q,v)·v + G(q) = τ"));
     assert!(text(&html, "swing").contains("Nothing takes energy from it"));
+}
+
+/// A chain too long for derivatives without loops, which a term in its energies asks for, has a page with all else.
+#[test]
+fn a_page_says_why_there_is_no_linear_model() {
+    let joint = |k: usize| {
+        let (parent, axis) =
+            (k.checked_sub(1).map_or("world".to_owned(), |k| format!("l{k}")), ["x", "y", "z"][k % 3]);
+        format!(
+            "#[joint(j{k}: revolute({axis}), {parent} -> l{k}, at = [0.1, 0.02, 0.3])]\n\
+             #[body(l{k}, mass = 1.5, com = [0.01, 0.02, 0.1], inertia = diag(0.02, 0.03, 0.025))]\n"
+        )
+    };
+    let chain: String = (0..40).map(joint).collect();
+    let robot = format!("#[derive(Dynamics)]\n{chain}#[potential(5 * sin(j3)^2)]\nstruct Long;\n");
+    let html = dynamics_on(robot.as_bytes(), &["report", "-", "--time", "0.005"]).ok();
+    let linear = text(&html, "linear");
+    assert!(
+        linear.contains(
+            "derivatives of forward dynamics, which this robot has not: the program would be too long"
+        ),
+        "{linear}"
+    );
+    assert!(text(&html, "swing").contains("Runge"), "{}", text(&html, "swing"));
 }
