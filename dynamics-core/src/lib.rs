@@ -7,8 +7,8 @@
 //! and works with them: [`Dynamics`] and its derivatives, [frames](Kinematics), the
 //! [centre of mass](CentroidalDynamics), [inertial parameters](Regressor), [simulation](Simulation),
 //! [linearisation](StateSpaceModel) with [outputs](output), [linear analysis and design](linear), [equilibria](trim),
-//! [controllers](control). The derive macro writes the implementations, specialised to one robot. No heap, no `unsafe`,
-//! no panics, no standard library unless asked for.
+//! [controllers](control). The derive macro writes the implementations, specialised to one robot. No `unsafe`; without
+//! the features `std`, a default, and `rayon` no heap, no panics and no standard library.
 //!
 //! # Conventions
 //!

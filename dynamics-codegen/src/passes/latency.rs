@@ -42,11 +42,19 @@ impl Program {
     /// register holds: on a core that begins `k` of them in each cycle, a `k`-th is the least number of cycles a call, however
     /// many overlap.
     pub fn instructions(&self) -> u32 {
-        let instructions = |operation| match operation {
+        self.instructions_by(|operation| match operation {
             Operation::SinCos(..) => INSTRUCTIONS_OF_SINE_AND_COSINE,
             Operation::Each(..) | Operation::Lane(..) | Operation::Turn(..) => 0,
             _ => 1,
-        };
+        })
+    }
+
+    /// Those of its instructions that add and do not multiply: AMD's cores since 2017 begin two of them beside two others.
+    pub fn sums(&self) -> u32 {
+        self.instructions_by(|operation| u32::from(matches!(operation, Operation::Add(..))))
+    }
+
+    fn instructions_by(&self, instructions: impl Fn(Operation) -> u32) -> u32 {
         let registers =
             |lanes: usize| u32::try_from(lanes.div_ceil(NUMBERS_IN_A_REGISTER)).unwrap_or(u32::MAX);
         self.steps.iter().map(|step| instructions(step.operation) * registers(step.lanes)).sum()
@@ -84,6 +92,8 @@ mod tests {
         let of = |operations| program(operations, &[Source::Step(2)]);
         assert_eq!((of(&serial).latency(), of(&serial).instructions()), (3 * PRODUCT, 3));
         assert_eq!((of(&balanced).latency(), of(&balanced).instructions()), (2 * PRODUCT, 3));
+        let fused = [Operation::Mul(a, b), Operation::MulAdd(c, d, step(0)), Operation::Add(step(1), a)];
+        assert_eq!((of(&fused).instructions(), of(&fused).sums()), (3, 1));
     }
 
     #[test]

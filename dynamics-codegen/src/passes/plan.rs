@@ -198,8 +198,8 @@ impl Plans {
             | Method::EquationsOfMotion
             | Method::InverseDynamicsDerivatives
             | Method::InverseDynamicsWithDerivatives => ENTRIES_FOR_LANES,
-            // They begin as those do. But states in lanes take less where M is factored in a straight line, and FD is one: five
-            // sixths, for a chain of 16.
+            // They begin as those do. But states in lanes take less where M is factored in a straight line, and FD is one: a
+            // tenth to a seventh, for a chain of 16.
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
                 return self.is_sooner_in_lanes(Method::InverseDynamicsDerivatives)
                     && !factoring::is_short(&self.parents);

@@ -2,7 +2,7 @@
 //!
 //! The steady measure: no clock, the same in each run. It is of the generic build, without fused multiply-add or
 //! vectors beyond SSE2, so that it does not depend on the machine. `-- --check` compares with `instructions.txt` and
-//! fails if a count is off by more than [`TOLERANCE`]; `-- --write` writes that file.
+//! fails if a count is off by more than [`TOLERANCE`] of it and [`MOVES`]; `-- --write` writes that file.
 #![allow(clippy::print_stdout, reason = "the table is the product")]
 #![allow(clippy::duplicated_attributes, reason = "joints are locked alike")]
 

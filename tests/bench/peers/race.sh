@@ -33,7 +33,7 @@ run env RUSTFLAGS="-C target-cpu=native" cargo bench -q -p dynamics-bench --benc
         "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -1)" \
         "$(sed -n 's/^cpu family[^:]*: //p' /proc/cpuinfo | head -1)" \
         "$(sed -n 's/^model\t[^:]*: //p' /proc/cpuinfo | head -1)"
-    printf '| system | %s |\n' "$(uname -srm)"
+    printf '| system | %s |\n' "$(uname -sm)"
     printf '| ours | %s, `opt-level = 3`, `-C target-cpu=native` |\n' "$(rustc --version)"
     printf '| Pinocchio | %s, `%s`, `-O3 -march=native -DNDEBUG`, header-only |\n' \
         "$(.venv/bin/python -c 'import pinocchio; print(pinocchio.__version__)')" "$(clang++ --version | head -1)"
