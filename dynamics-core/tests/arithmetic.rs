@@ -1,5 +1,5 @@
-//! What depends on the arithmetic of a target: square roots, fused products, lanes and their registers. One program, which
-//! is also run without the standard library and on the registers of this processor.
+//! What depends on the arithmetic of a target: lanes and their registers, factors and recursions in them, quaternions, linear
+//! models. A program of its own, which `.ci/run` also builds for this very processor.
 
 mod common;
 

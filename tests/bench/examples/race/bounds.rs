@@ -8,10 +8,9 @@ use dynamics_codegen::passes::{Plan, RunTime};
 use dynamics_codegen::spec::{self, urdf::Urdf};
 use dynamics_codegen::symbolic::Graph;
 
-/// How many products, fused or not, a core begins in a cycle, and how many instructions at all: AMD's have two pipes for
-/// products and two for sums (Agner Fog, *The microarchitecture of Intel, AMD and VIA CPUs*, Zen 3), others two for both.
-const PRODUCTS: f64 = 2.0;
-const INSTRUCTIONS: f64 = 4.0;
+/// How many products, fused or not, a core begins in a cycle, and how many sums beside them: AMD's have two pipes for each
+/// (Agner Fog, *The microarchitecture of Intel, AMD and VIA CPUs*, Zen 3), others two for both.
+const PIPES: f64 = 2.0;
 
 /// How many of them are one instruction where loops run in lanes: registers of 256 bits, as the table of lanes counts, too.
 const LANES: f64 = 4.0;
@@ -56,9 +55,8 @@ pub(crate) fn of(robot: &str) -> BTreeMap<&'static str, Bound> {
         Ok((_, compiled)) => compiled,
         Err(mistakes) => panic!("{robot}: {}", mistakes.into_text()),
     };
-    let cycles = |instructions: u32, sums: u32| {
-        (f64::from(instructions.saturating_sub(sums)) / PRODUCTS).max(f64::from(instructions) / INSTRUCTIONS)
-    };
+    let cycles =
+        |instructions: u32, sums: u32| f64::from(instructions.saturating_sub(sums).max(sums)) / PIPES;
     let bound = |plan: &Plan<'_>, cost: dynamics_codegen::passes::Cost| match plan {
         Plan::StraightLine { program, .. } => Bound {
             operations: cycles(program.instructions(), program.sums()),
