@@ -1,11 +1,13 @@
 //! What generated code needs, under names no user can shadow. Not part of the public interface.
 
 pub mod each;
+pub mod elimination_tree;
 mod in_place;
 pub mod inverse;
 pub mod manifold;
 pub mod recursion;
 pub mod solve;
+mod sweep;
 
 pub use core::option::Option::{None, Some};
 
@@ -24,12 +26,13 @@ pub use crate::regressor::{BaseRegressor, Regressor};
 pub use crate::scalar::{One, Scalar, Zero};
 pub use crate::state::{Configuration, State};
 pub use each::{Branches, Elementwise, of_each};
+pub use elimination_tree::EliminationTree;
 pub use inverse::{forward_from_inverse, inverse_of};
 pub use manifold::{
     ball_rate, ball_rate_transposed, ball_tangent_rate, difference_ball, difference_free, free_rate,
     free_rate_transposed, free_tangent_rate, integrate_ball, integrate_free,
 };
-pub use solve::{EliminationTree, Factors};
+pub use solve::Factors;
 
 /// `(sin x, cos x)`.
 #[inline(always)]

@@ -5,7 +5,7 @@
 //! such: with `-C target-cpu=native` or the like, 256 bits on AVX, 512 on AVX-512; elsewhere several smaller ones.
 
 pub(crate) mod sines;
-mod tiles;
+pub(crate) mod tiles;
 pub(crate) mod together;
 
 use core::fmt;

@@ -194,23 +194,6 @@ pub(crate) fn add_products<T: Scalar, const R: usize, const W: usize, const S: u
     *sums = own;
 }
 
-/// A strip of each column; zeros beyond the last row of fewer than a strip.
-#[inline(always)]
-pub(crate) fn strip_of<T: Scalar, const R: usize, const W: usize, const S: usize>(
-    columns: &[[T; R]; W],
-    strip: usize,
-) -> [[T; S]; W] {
-    let mut sums = [[T::zero(); S]; W];
-    for (sums, column) in sums.iter_mut().zip(columns) {
-        let rows = column.get(first_of(strip, S, R)..).unwrap_or_default();
-        match rows.first_chunk() {
-            Some(part) => *sums = *part,
-            None => sums.iter_mut().zip(rows).for_each(|(sum, value)| *sum = *value),
-        }
-    }
-    sums
-}
-
 /// Writes a strip of each column.
 #[inline(always)]
 pub(crate) fn write_strip<T: Scalar, const R: usize, const W: usize, const S: usize>(

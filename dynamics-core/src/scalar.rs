@@ -88,6 +88,16 @@ pub trait Scalar:
         results
     }
 
+    /// The transpose of a tile, four columns of four rows.
+    ///
+    /// With feature `simd`, `f32` and `f64` exchange several numbers at a time.
+    #[inline(always)]
+    #[rustfmt::skip]
+    fn transposed([[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]: [[Self; 4]; 4]) -> [[Self; 4]; 4] {
+        // Entry by entry: loops would become gathers.
+        [[a, e, i, m], [b, f, j, n], [c, g, k, o], [d, h, l, p]]
+    }
+
     /// `√self`; NaN below zero.
     ///
     /// Correctly rounded for `f32` and `f64` with feature `std` or `libm`, within 1 ulp without either.
@@ -200,6 +210,12 @@ macro_rules! impl_scalar {
                     branch!(F, own, shared, results, branch);
                 }
                 results
+            }
+
+            #[cfg(feature = "simd")]
+            #[inline(always)]
+            fn transposed(tile: [[Self; 4]; 4]) -> [[Self; 4]; 4] {
+                <Self as crate::lanes::tiles::Tile<4>>::transposed(tile)
             }
 
             #[inline(always)]

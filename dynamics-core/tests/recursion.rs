@@ -131,8 +131,9 @@ fn a_hundred_joints_fit_on_a_small_stack() {
 #[test]
 fn a_hundred_joints_in_lanes_fit_on_the_stack_of_a_thread() {
     type Call = fn(&Tree<f64, 100, 100, 100>, &SVector<f64, 100>) -> f64;
-    let calls: [Call; 4] = [
+    let calls: [Call; 5] = [
         |tree, x| tree.in_lanes().mass_matrix(x)[0],
+        |tree, x| tree.in_lanes().inverse_mass_matrix(x, const { &EliminationTree::CHAIN })[0],
         |tree, x| tree.in_lanes().coriolis_matrix(x, x)[0],
         |tree, x| tree.in_lanes().inverse_dynamics_derivatives(x, x, x).dtau_dq[0],
         |tree, x| {

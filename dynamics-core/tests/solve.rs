@@ -68,10 +68,14 @@ fn mass_matrix<const N: usize>(
     l.transpose() * d * l
 }
 
-fn factors<const N: usize>(m: &[[f64; N]; N], tree: &'static EliminationTree<N>) -> Factors<f64, N> {
+/// The factors, and the inverse.
+fn inverted<const N: usize>(
+    mut m: [[f64; N]; N],
+    tree: &'static EliminationTree<N>,
+) -> (Factors<f64, N>, [[f64; N]; N]) {
     let mut factors = Factors::new(tree);
-    factors.factor(m);
-    factors
+    factors.invert(&mut m);
+    (factors, m)
 }
 
 fn agrees<const N: usize>(parents: &[Option<usize>; N], tree: &'static EliminationTree<N>) {
@@ -88,13 +92,18 @@ fn solves_for_one<const N: usize>(parents: &[Option<usize>; N], tree: &'static E
     let mut random = random_numbers(N as u64);
     let m = mass_matrix(parents, &mut random);
     let mut matrix = || SMatrix::<f64, N, N>::from_fn(|_, _| random());
-    let inverse = InverseDynamicsDerivatives { dtau_dq: matrix(), dtau_dv: matrix(), dtau_da: m };
-    let forward = forward_from_inverse(&inverse, &factors(&m.data.0, tree));
+    let (factors, inverse) = inverted(m.data.0, tree);
+    let inverse = InverseDynamicsDerivatives {
+        dtau_dq: matrix(),
+        dtau_dv: matrix(),
+        dtau_da: SMatrix::from_fn(|i, j| inverse[j][i]),
+    };
+    let forward = forward_from_inverse(&inverse, &factors);
     assert!((m * forward.da_dq + inverse.dtau_dq).amax() < TOLERANCE);
     assert!((m * forward.da_dv + inverse.dtau_dv).amax() < TOLERANCE);
     assert!((m * forward.da_dtau - SMatrix::identity()).amax() < TOLERANCE);
     assert_eq!(forward.da_dtau, forward.da_dtau.transpose());
-    assert_eq!(inverse_of(&m, tree), forward.da_dtau);
+    assert_eq!(inverse_of(m, tree), forward.da_dtau);
 }
 
 /// Several matrices as one, of whose scalar rows and columns are taken otherwise. In the last one there are numbers that
@@ -112,21 +121,22 @@ fn each_lane_has_the_bits_of_one<L: Lanes<Element = f64>, const N: usize>(
         last[N * N - 1 - N / 3] = f64::INFINITY;
     }
     let mut wide = Factors::new(tree);
-    wide.factor(&in_lanes_of::<L, N, N>(&m).data.0);
-    let (solved, inverse) = (wide.minus_solved(&in_lanes_of::<L, N, N>(&b).data.0), wide.inverse());
+    let mut inverse = in_lanes_of::<L, N, N>(&m).data.0;
+    wide.invert(&mut inverse);
+    let solved = wide.minus_solved(&in_lanes_of::<L, N, N>(&b).data.0);
     for (lane, (m, b)) in m.iter().zip(&b).enumerate() {
-        let factors = factors(&m.data.0, tree);
+        let (factors, expected) = inverted(m.data.0, tree);
         let check = |found: [[L; N]; N], expected: [[f64; N]; N]| {
             let expected = columns(expected).map(f64::to_bits);
             let text = |x: SMatrix<u64, N, N>| format!("{:?}", x.map(f64::from_bits)); // in which NaN equals NaN
             assert_eq!(text(bits_of_lane(&columns(found), lane)), text(expected));
         };
         check(solved, factors.minus_solved(&b.data.0));
-        check(inverse, factors.inverse());
+        check(inverse, expected);
     }
-    let inverses = inverse_of(&in_lanes_of::<L, N, N>(&m), tree);
+    let inverses = inverse_of(in_lanes_of::<L, N, N>(&m), tree);
     for (lane, m) in m.iter().enumerate() {
-        assert_eq!(bits_of_lane(&inverses, lane), inverse_of(m, tree).map(f64::to_bits));
+        assert_eq!(bits_of_lane(&inverses, lane), inverse_of(*m, tree).map(f64::to_bits));
     }
 }
 
@@ -183,13 +193,11 @@ fn what_lies_above_the_diagonal_is_not_read() {
     let clean = mass_matrix(&TREE, &mut random_numbers(3)).transpose().data.0;
     let mut rows = clean;
     for (i, row) in rows.iter_mut().enumerate() {
-        row[i + 1..].fill(f64::NAN);
+        row[..i].fill(f64::NAN);
     }
     let solved = |m: &[[f64; 7]; 7]| {
-        let factors = factors(m, const { &EliminationTree::of(TREE) });
-        let x = factors.minus_solved(&[[1.0; 7], [2.0; 7]]);
-        let inverse = factors.inverse();
-        (x, inverse)
+        let (factors, inverse) = inverted(*m, const { &EliminationTree::of(TREE) });
+        (factors.minus_solved(&[[1.0; 7], [2.0; 7]]), inverse)
     };
     assert_eq!(solved(&rows), solved(&clean));
     assert!(solved(&rows).1.as_flattened().iter().all(|x| x.is_finite()));
@@ -199,9 +207,9 @@ fn what_lies_above_the_diagonal_is_not_read() {
 fn nothing_to_solve_is_no_error() {
     let no_columns: [[f64; 7]; 0] = [];
     assert_eq!(
-        factors(&[[1.0; 7]; 7], const { &EliminationTree::CHAIN }).minus_solved(&no_columns),
+        inverted([[1.0; 7]; 7], const { &EliminationTree::CHAIN }).0.minus_solved(&no_columns),
         no_columns
     );
     let empty: [[f64; 0]; 3] = [[]; 3];
-    assert_eq!(factors(&[], const { &EliminationTree::CHAIN }).minus_solved(&empty), empty);
+    assert_eq!(inverted([], const { &EliminationTree::CHAIN }).0.minus_solved(&empty), empty);
 }

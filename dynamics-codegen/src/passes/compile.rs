@@ -1,6 +1,5 @@
 //! The passes, in order: derive in the best unit, share, hoist, schedule.
 
-use super::factoring::factoring;
 use super::lanes::Layout;
 use super::parameters::Normaliser;
 use super::plan::{Form, Plan, Plans, RunTime, calls};
@@ -168,18 +167,11 @@ pub fn compile<'g>(
                 (Plan::StraightLine { blocks, program }, cost)
             }
             Form::Loops => {
-                let parents = plan.parents.clone();
-                let factoring = match method {
-                    Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
-                        factoring(&parents)
-                    }
-                    _ => None,
-                };
                 // Methods come after those that they call.
                 let called = compiled.iter().filter(|known| calls(method).contains(&known.method));
-                let own = plan.cost_of_loops(method, factoring.as_ref());
+                let own = plan.cost_of_loops(method);
                 let cost = called.fold(own, |sum, called| sum + called.cost);
-                (Plan::Loops { parents, factoring }, cost)
+                (Plan::Loops { parents: plan.parents.clone() }, cost)
             }
             form @ (Form::Table | Form::Lanes) => {
                 let frame = table::frame(model, method).map(|(link, entries)| (link, program_of(&entries)));

@@ -1,7 +1,6 @@
 //! From equations to programs: what runs once, what runs in each call, and in which order.
 
 mod compile;
-mod factoring;
 mod hoist;
 mod lanes;
 mod latency;

@@ -4,7 +4,7 @@
 //! How long a straight line would be is known before anything is traced, from the joints between each joint and
 //! the base.
 
-use super::{Cost, Program, factoring};
+use super::{Cost, Program};
 use crate::mechanics::branches;
 use crate::mechanics::columns::columns;
 use crate::mechanics::coupling::elimination_parents;
@@ -17,8 +17,11 @@ use crate::symbolic::Expr;
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
 /// The most statements that the kinematics of all frames may have together.
 const LONGEST_KINEMATICS: usize = 50_000;
-/// The most statements of a straight line for `M⁻¹`: beyond it loops over rows are as fast.
-const LONGEST_STRAIGHT_INVERSE: usize = 6_000;
+/// The most statements of a straight line for `M⁻¹`. Beyond it loops take less, of a chain of 16 joints 0.83 of the time and
+/// of 20 joints 0.6; but states in lanes take 1.3 to 1.5 times as long.
+const LONGEST_STRAIGHT_INVERSE: usize = 1_700;
+/// The same where branches are computed side by side, or where there are no such loops.
+const LONGEST_STRAIGHT_INVERSE_OTHERWISE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
 /// The same of one whose branches are computed side by side, those that are alike counted once.
@@ -47,8 +50,6 @@ pub enum Plan<'g> {
     Loops {
         /// By which M is factored: the speed before each on its way to the base.
         parents: Vec<Option<usize>>,
-        /// From M to its factors, where that is short enough for a straight line.
-        factoring: Option<Program>,
     },
     /// By the run time's recursion over a table of links.
     Table {
@@ -87,6 +88,7 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
+    run_time: RunTime,
     /// How many speeds there are if branches that are alike count as one; all of them where none are computed side by side.
     unlike: usize,
     /// So many entries of a matrix a straight line computes.
@@ -129,6 +131,7 @@ impl Plans {
             parents,
             ancestors,
             suits_lanes,
+            run_time,
             must_factor,
         }
     }
@@ -150,9 +153,7 @@ impl Plans {
             {
                 Form::Loops
             }
-            Method::InverseMassMatrix if self.statements_of_inverse() > LONGEST_STRAIGHT_INVERSE => {
-                Form::Loops
-            }
+            Method::InverseMassMatrix if self.is_sooner_swept() => Form::Loops,
             _ => Form::StraightLine,
         }
     }
@@ -198,11 +199,12 @@ impl Plans {
             | Method::EquationsOfMotion
             | Method::InverseDynamicsDerivatives
             | Method::InverseDynamicsWithDerivatives => ENTRIES_FOR_LANES,
-            // They begin as those do. But states in lanes take less where M is factored in a straight line, and FD is one: a
-            // tenth to a seventh, for a chain of 16.
+            Method::InverseMassMatrix => {
+                return self.is_sooner_in_lanes(Method::MassMatrix) && self.is_sooner_swept();
+            }
+            // They begin as those do.
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
-                return self.is_sooner_in_lanes(Method::InverseDynamicsDerivatives)
-                    && !factoring::is_short(&self.parents);
+                return self.is_sooner_in_lanes(Method::InverseDynamicsDerivatives);
             }
             _ => return false,
         };
@@ -242,6 +244,15 @@ impl Plans {
         }
     }
 
+    /// Whether the run time inverts M as soon as a straight line would.
+    fn is_sooner_swept(&self) -> bool {
+        let longest = match self.run_time {
+            RunTime::Core if !self.is_solved_side_by_side() => LONGEST_STRAIGHT_INVERSE,
+            _ => LONGEST_STRAIGHT_INVERSE_OTHERWISE,
+        };
+        self.statements_of_inverse() > longest
+    }
+
     /// About how many statements factoring M and solving for half of each unit column takes.
     fn statements_of_inverse(&self) -> usize {
         let mut before = 0;
@@ -252,17 +263,15 @@ impl Plans {
         self.ancestors.iter().map(column).sum()
     }
 
-    /// What the loops of the run time cost, without the methods that they call: of factors, by their program if there is
-    /// one; of each half of M⁻¹ once; and of two products with a factor for each column that is solved for.
-    pub(super) fn cost_of_loops(&self, method: Method, factoring: Option<&Program>) -> Cost {
+    /// What the loops of the run time cost, without the methods that they call: of factors, of each half of M⁻¹ once, and of
+    /// two products with a factor for each column that is solved for.
+    pub(super) fn cost_of_loops(&self, method: Method) -> Cost {
         let count = |value: usize| u32::try_from(value).unwrap_or(u32::MAX);
         let products =
             |value| Cost { multiplications: count(value), additions: count(value), ..Cost::default() };
         let (n, depths) = (self.ancestors.len(), self.ancestors.iter().map(Vec::len));
-        let factors = match factoring {
-            Some(program) => program.cost(),
-            None => Cost { divisions: count(n), ..products(depths.clone().map(|depth| depth * depth).sum()) },
-        };
+        let factors = products(depths.clone().map(|depth| depth * depth).sum());
+        let factors = Cost { divisions: count(n), ..factors };
         let inverse = depths.clone().enumerate().map(|(k, depth)| (n - k) * (depth + 1)).sum();
         let solved = 2 * n * (2 * depths.sum::<usize>() + n);
         match method {
@@ -276,7 +285,7 @@ impl Plans {
     /// nothing is known to be zero. Derivatives of forward dynamics begin as those of the inverse do.
     pub(super) fn cost_of_table(&self, method: Method) -> Cost {
         if let Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives = method {
-            return self.cost_of_loops(method, None) + self.cost_of_table(Method::InverseDynamicsDerivatives);
+            return self.cost_of_loops(method) + self.cost_of_table(Method::InverseDynamicsDerivatives);
         }
         let count = u32::try_from(3 * self.statements(method)).unwrap_or(u32::MAX);
         let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);

@@ -6,7 +6,7 @@
 
 use core::hint::black_box;
 
-use crate::product::{STRIP, has_lanes};
+use crate::product::has_lanes;
 use crate::scalar::Scalar;
 
 /// A matrix that is about to be overwritten: zeros, of which the compiler does not know. It would write zeros that it
@@ -44,7 +44,6 @@ pub(super) use put;
 /// Writes what is below the diagonal of an N×N matrix above it too.
 macro_rules! mirror {
     ($matrix:ident, $n:ident) => {{
-        use $crate::__private::in_place::transposed;
         use $crate::product::STRIP;
 
         // Lanes of a scalar are no rows: one by one.
@@ -57,7 +56,7 @@ macro_rules! mirror {
                         *entry = $matrix[block * STRIP + j][strip * STRIP + i];
                     }
                 }
-                for (j, column) in transposed(tile).iter().enumerate() {
+                for (j, column) in T::transposed(tile).iter().enumerate() {
                     for (i, entry) in column.iter().enumerate() {
                         if strip > block || i < j {
                             $matrix[strip * STRIP + j][block * STRIP + i] = *entry;
@@ -74,14 +73,3 @@ macro_rules! mirror {
     }};
 }
 pub(super) use mirror;
-
-/// Four columns of four rows.
-pub(super) type Tile<T> = [[T; STRIP]; STRIP];
-
-/// Entry by entry: loops would become gathers.
-#[inline(always)]
-pub(super) fn transposed<T: Scalar>(
-    [[a, b, c, d], [e, f, g, h], [i, j, k, l], [m, n, o, p]]: Tile<T>,
-) -> Tile<T> {
-    [[a, e, i, m], [b, f, j, n], [c, g, k, o], [d, h, l, p]]
-}

@@ -4,20 +4,21 @@
 
 use nalgebra::SMatrix;
 
-use super::columns;
-use super::solve::{EliminationTree, Factors, inverted};
+use super::elimination_tree::EliminationTree;
+use super::solve::Factors;
+use super::sweep::invert;
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 
 /// `∂a/∂q = −M⁻¹ ∂τ/∂q`, `∂a/∂v = −M⁻¹ ∂τ/∂v` and `∂a/∂τ = M⁻¹`, from the derivatives of inverse dynamics at the
-/// acceleration that τ causes, and the factors of its `∂τ/∂a = M`.
+/// acceleration that τ causes, and the factors of its `∂τ/∂a = M`, in whose place they left [`M⁻¹`](Factors::invert).
 ///
 /// The former two are solved for: a product with `M⁻¹` would take half the time, and leave a residual that grows with
 /// the condition of M.
 ///
 /// # Cost
 ///
-/// Five products of a triangular with a square matrix.
+/// Four products of a triangular with a square matrix.
 #[inline]
 pub fn forward_from_inverse<T: Scalar, const N: usize>(
     inverse: &InverseDynamicsDerivatives<T, N>,
@@ -26,15 +27,16 @@ pub fn forward_from_inverse<T: Scalar, const N: usize>(
     factors.forward_from_inverse(inverse)
 }
 
-/// `M⁻¹`, of a symmetric positive definite matrix.
+/// `M⁻¹`, both halves, of a symmetric positive definite matrix, of which what is on the diagonal and below it is read.
 ///
 /// # Cost
 ///
-/// One factorisation, and a product of a triangular with a square matrix.
+/// N³/2 multiplications and additions.
 #[inline]
 pub fn inverse_of<T: Scalar, const N: usize>(
-    m: &SMatrix<T, N, N>,
-    tree: &'static EliminationTree<N>,
+    mut m: SMatrix<T, N, N>,
+    tree: &EliminationTree<N>,
 ) -> SMatrix<T, N, N> {
-    columns(inverted(&m.data.0, tree))
+    invert(&mut m.data.0, tree, None);
+    m
 }

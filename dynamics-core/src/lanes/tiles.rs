@@ -2,7 +2,7 @@
 //!
 //! Number by number it would cost as much as the dynamics of an arm.
 
-use wide::{f32x4, f64x2};
+use wide::{f32x4, f64x2, f64x4};
 
 use crate::scalar::{Scalar, Zero};
 
@@ -10,7 +10,7 @@ use crate::scalar::{Scalar, Zero};
 const MOST: usize = 4;
 
 /// A float of whose tiles, E×E, transposed by few instructions, the widest lanes have four.
-pub(super) trait Tile<const E: usize>: Scalar {
+pub(crate) trait Tile<const E: usize>: Scalar {
     fn transposed(tile: [[Self; E]; E]) -> [[Self; E]; E];
 }
 
@@ -20,6 +20,14 @@ impl Tile<2> for f64 {
     fn transposed([a, b]: [[Self; 2]; 2]) -> [[Self; 2]; 2] {
         let [a, b] = f64x2::transpose([f64x2::new(a), f64x2::new(b)]);
         [a.to_array(), b.to_array()]
+    }
+}
+
+impl Tile<4> for f64 {
+    #[inline(always)]
+    fn transposed([a, b, c, d]: [[Self; 4]; 4]) -> [[Self; 4]; 4] {
+        let [a, b, c, d] = f64x4::transpose([f64x4::new(a), f64x4::new(b), f64x4::new(c), f64x4::new(d)]);
+        [a.to_array(), b.to_array(), c.to_array(), d.to_array()]
     }
 }
 
@@ -58,7 +66,7 @@ pub(super) fn lanes_of_rows<
             for (part, state) in rows.iter_mut().zip(states) {
                 *part = part_of(row(state), start);
             }
-            *tile = T::transposed(rows);
+            *tile = <T as Tile<E>>::transposed(rows);
         }
         for (i, lanes) in lanes.iter_mut().skip(start).take(E).enumerate() {
             let mut numbers = [T::zero(); W];
@@ -87,7 +95,7 @@ pub(super) fn rows_of_lanes<'a, T: Tile<E>, L, S, const N: usize, const W: usize
                     *four = *lanes;
                 }
             }
-            for (state, four) in states.iter_mut().zip(T::transposed(tile)) {
+            for (state, four) in states.iter_mut().zip(<T as Tile<E>>::transposed(tile)) {
                 let row = row(state);
                 match row.get_mut(start..).and_then(|row| row.first_chunk_mut::<E>()) {
                     Some(row) => *row = four,

@@ -72,6 +72,7 @@ fn agrees<const NL: usize, const NQ: usize, const N: usize>(robot: &Robot<NL, NQ
     close(&ours.da_dq, &theirs.da_dq, TOLERANCE_OF_SOLUTIONS);
     close(&ours.da_dv, &theirs.da_dv, TOLERANCE_OF_SOLUTIONS);
     close(&ours.da_dtau, &theirs.da_dtau, TOLERANCE_OF_SOLUTIONS);
+    assert_eq!(lanes.inverse_mass_matrix(&q, by), ours.da_dtau);
     let (found, derivatives) = lanes.forward_dynamics_with_derivatives(&q, &v, &a, by);
     close(&found, &tree.forward_dynamics(&q, &v, &a), TOLERANCE_OF_SOLUTIONS);
     assert_eq!(derivatives, ours);
@@ -109,16 +110,18 @@ fn each_state_has_the_bits_of_one<
     let (wide, single) = (wide.in_lanes(), robot.tree.in_lanes());
     let wide_q = in_lanes_of::<L, NQ, 1>(&q);
     let [wide_v, wide_a] = [&v, &a].map(|x| in_lanes_of::<L, N, 1>(x));
+    let by = elimination(&robot.tree);
     let m = wide.mass_matrix(&wide_q);
+    let inverse = wide.inverse_mass_matrix(&wide_q, by);
     let c = wide.coriolis_matrix(&wide_q, &wide_v);
     let (tau, derivatives) = wide.inverse_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a);
-    let by = elimination(&robot.tree);
     let (found, responses) = wide.forward_dynamics_with_derivatives(&wide_q, &wide_v, &wide_a, by);
     for (lane, ((q, v), a)) in q.iter().zip(&v).zip(&a).enumerate() {
         let check = |found: &SMatrix<L, N, N>, expected: SMatrix<f64, N, N>| {
             assert_eq!(bits_of_lane(found, lane), expected.map(f64::to_bits));
         };
         check(&m, single.mass_matrix(q));
+        check(&inverse, single.inverse_mass_matrix(q, by));
         check(&c, single.coriolis_matrix(q, v));
         let (forces, expected) = single.inverse_dynamics_with_derivatives(q, v, a);
         assert_eq!(bits_of_lane(&tau, lane), forces.map(f64::to_bits));

@@ -64,17 +64,13 @@ pub(super) fn write(
                 }
             }
         }
-        Plan::Loops { parents, factoring } => {
-            let factoring = factoring.as_ref();
-            match *shares {
-                None => by_loops(*method, parents, factoring, context, scalar),
-                Some(bundle) => {
-                    let body = || shared_loops(*method, parents, factoring, context, scalar);
-                    shared = (bundle == *method).then(body);
-                    by_shared_loops(*method, bundle, scalar, context.sizes)
-                }
+        Plan::Loops { parents } => match *shares {
+            None => by_loops(*method, parents, context.sizes, scalar),
+            Some(bundle) => {
+                shared = (bundle == *method).then(|| shared_loops(*method, parents, context.sizes, scalar));
+                by_shared_loops(*method, bundle, scalar, context.sizes)
             }
-        }
+        },
         Plan::Table { frame: None, lanes } => by_table(*method, lanes.as_deref(), scalar, context.sizes),
         Plan::Table { frame: Some((link, program)), .. } => {
             frame_by_table(*method, *link, program, context, scalar, robot)
@@ -149,8 +145,12 @@ fn by_shared(method: Method, bundle: Method, scalar: &str, sizes: Sizes) -> Stri
 /// The body that leaves everything to the run time's recursion; in lanes, it is told by which tree to factor M.
 fn by_table(method: Method, lanes: Option<&[Option<usize>]>, scalar: &str, sizes: Sizes) -> String {
     let arguments = typed_arguments(method, scalar, sizes);
-    let solves =
-        matches!(method, Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives);
+    let solves = matches!(
+        method,
+        Method::InverseMassMatrix
+            | Method::ForwardDynamicsDerivatives
+            | Method::ForwardDynamicsWithDerivatives
+    );
     let tree = lanes.filter(|_| solves);
     let (name, passed_on) = (method.name(), pass_on(method));
     let way = if lanes.is_some() { "in_lanes()." } else { "" };

@@ -20,9 +20,9 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, N
         tau: &SVector<T, NV>,
     ) -> ForwardDynamicsDerivatives<T, NV> {
         let a = self.forward_dynamics(q, v, tau);
-        let inverse = self.inverse_dynamics_derivatives(q, v, &a);
+        let mut inverse = self.inverse_dynamics_derivatives(q, v, &a);
         let mut factors = Factors::new(const { &EliminationTree::CHAIN });
-        factors.factor(&inverse.dtau_da.data.0);
+        factors.invert(&mut inverse.dtau_da.data.0);
         forward_from_inverse(&inverse, &factors)
     }
 }

@@ -17,7 +17,7 @@ use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
 use crate::__private::recursion::screw::Wrench;
 use crate::__private::recursion::vector::Vector;
-use crate::__private::solve::{EliminationTree, Factors};
+use crate::__private::{EliminationTree, Factors};
 use crate::__private::{columns, vector};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
@@ -100,7 +100,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let mut rows = WrenchesInLanes::zero();
         set_rows(&moving.placed, &moving.moments, &mut rows);
         let mut factors = Factors::new(tree);
-        factor(&self.pairs(&moving.placed, &rows), &self.armatures(), &mut factors);
+        let mut inverse = self.pairs(&moving.placed, &rows).half_mass_matrix(&self.armatures());
+        factors.invert(&mut inverse);
 
         let passive = self.tree.passive_forces(q, v);
         let mut a = [T::zero(); N];
@@ -118,7 +119,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let mut changing = Changing::zero();
         self.change(v, &moving, &mut changing);
         let pairs = self.pairs(&moving.placed, &rows);
-        finish(a, Accelerated { pairs, changing: &changing, factors: &factors })
+        finish(a, Accelerated { pairs, changing: &changing, factors: &factors, inverse: &inverse })
     }
 
     /// Writes, over zeros, how the links move, and of each by itself its moments, its momenta, and the wrench on it.
@@ -277,16 +278,18 @@ struct Accelerated<'a, T, const N: usize> {
     pairs: Pairs<'a, T, N>,
     changing: &'a Changing<T, N>,
     factors: &'a Factors<T, N>,
+    /// `M⁻¹`
+    inverse: &'a Square<T, N>,
 }
 
 impl<T: Scalar, const N: usize> Accelerated<'_, T, N> {
     #[inline(never)]
     fn derivatives(&self) -> ForwardDynamicsDerivatives<T, N> {
-        let Self { pairs, changing, factors } = self;
+        let Self { pairs, changing, factors, inverse } = self;
         ForwardDynamicsDerivatives {
             da_dq: minus_solved(factors, || pairs.dtau_dq(changing)),
             da_dv: minus_solved(factors, || pairs.dtau_dv(changing)),
-            da_dtau: columns(factors.inverse()),
+            da_dtau: columns(**inverse),
         }
     }
 }
@@ -298,14 +301,6 @@ fn minus_solved<T: Scalar, const N: usize>(
     b: impl FnOnce() -> Square<T, N>,
 ) -> SMatrix<T, N, N> {
     columns(factors.minus_solved(&b()))
-}
-
-fn factor<T: Scalar, const N: usize>(
-    pairs: &Pairs<'_, T, N>,
-    armatures: &[T; N],
-    factors: &mut Factors<T, N>,
-) {
-    factors.factor(&pairs.mass_matrix(armatures));
 }
 
 impl<T: Scalar, const N: usize> Pairs<'_, T, N> {

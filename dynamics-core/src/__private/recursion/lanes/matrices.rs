@@ -8,21 +8,37 @@ use super::pairs::Changes;
 use super::place::Placed;
 use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
-use crate::__private::{columns, vector};
+use crate::__private::{EliminationTree, columns, inverse_of, vector};
 use crate::dynamics::EquationsOfMotion;
 use crate::scalar::Scalar;
 
 impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T, NL, NQ, N> {
     /// The mass matrix `M(q)`, both halves, with the armatures.
     pub fn mass_matrix(&self, q: &SVector<T, NQ>) -> SMatrix<T, N, N> {
-        let mut placed = Placed::zero();
-        self.place(entries(q), &mut placed);
-        let mut moments = MomentsInLanes::zero();
-        self.moments(&placed, &mut moments);
-        self.collect_moments(&placed, &mut moments);
-        let mut rows = WrenchesInLanes::zero();
-        set_rows(&placed, &moments, &mut rows);
+        let (mut placed, mut rows) = (Placed::zero(), WrenchesInLanes::zero());
+        self.set_unit_wrenches(q, &mut placed, &mut rows);
         columns(self.pairs(&placed, &rows).mass_matrix(&self.armatures()))
+    }
+
+    /// `M(q)⁻¹`, both halves.
+    pub fn inverse_mass_matrix(&self, q: &SVector<T, NQ>, tree: &EliminationTree<N>) -> SMatrix<T, N, N> {
+        let (mut placed, mut rows) = (Placed::zero(), WrenchesInLanes::zero());
+        self.set_unit_wrenches(q, &mut placed, &mut rows);
+        inverse_of(columns(self.pairs(&placed, &rows).half_mass_matrix(&self.armatures())), tree)
+    }
+
+    /// Writes where the links are, and the wrenches of unit motions on all that hangs on their joints.
+    fn set_unit_wrenches(
+        &self,
+        q: &SVector<T, NQ>,
+        placed: &mut Placed<T, N>,
+        rows: &mut WrenchesInLanes<T, N>,
+    ) {
+        self.place(entries(q), placed);
+        let mut moments = MomentsInLanes::zero();
+        self.moments(placed, &mut moments);
+        self.collect_moments(placed, &mut moments);
+        set_rows(placed, &moments, rows);
     }
 
     /// The Coriolis matrix `C(q,v)`: Levi-Civita's, without passive forces.

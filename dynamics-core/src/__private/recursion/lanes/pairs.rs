@@ -55,9 +55,17 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
 impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
     /// `M`, both halves, with these armatures.
     #[inline(never)]
+    pub(super) fn mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
+        let mut m = self.half_mass_matrix(armatures);
+        mirror!(m, N);
+        m
+    }
+
+    /// `M` on the diagonal and below it, with these armatures; anything above.
+    #[inline(never)]
     #[allow(clippy::assign_op_pattern, reason = "`+=` borrows")]
     #[allow(clippy::needless_range_loop, reason = "an iterator borrows")]
-    pub(super) fn mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
+    pub(super) fn half_mass_matrix(&self, armatures: &[T; N]) -> Square<T, N> {
         let mut m = blank();
         let mut rows = [[T::zero(); N]; 6];
         set_last(&mut rows, self.rows.both().1);
@@ -93,7 +101,6 @@ impl<T: Scalar, const N: usize> Pairs<'_, T, N> {
                 m[j][i] = T::zero();
             }
         }
-        mirror!(m, N);
         for (k, armature) in armatures.iter().enumerate() {
             m[k][k] = m[k][k] + *armature;
         }
