@@ -17,9 +17,9 @@ use crate::symbolic::Expr;
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
 /// The most statements that the kinematics of all frames may have together.
 const LONGEST_KINEMATICS: usize = 50_000;
-/// The most statements of a straight line for `M⁻¹`. Beyond it loops take less, of a chain of 16 joints 0.83 of the time and
-/// of 20 joints 0.6; but states in lanes take 1.3 to 1.5 times as long.
-const LONGEST_STRAIGHT_INVERSE: usize = 1_700;
+/// The most statements of a straight line for `M⁻¹`. Beyond it loops take less: of a chain of 20 joints 0.6 of the time, where
+/// states in lanes take 1.4 times as long; of 16 joints they take 0.8 to 1.0, and states in lanes 1.3 times as long.
+const LONGEST_STRAIGHT_INVERSE: usize = 2_500;
 /// The same where branches are computed side by side, or where there are no such loops.
 const LONGEST_STRAIGHT_INVERSE_OTHERWISE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
@@ -282,10 +282,16 @@ impl Plans {
     }
 
     /// What the recursion costs, to the leading order: about three straight-line statements' worth each, since
-    /// nothing is known to be zero. Derivatives of forward dynamics begin as those of the inverse do.
+    /// nothing is known to be zero. Derivatives of forward dynamics begin as those of the inverse do, and M⁻¹ as M.
     pub(super) fn cost_of_table(&self, method: Method) -> Cost {
-        if let Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives = method {
-            return self.cost_of_loops(method) + self.cost_of_table(Method::InverseDynamicsDerivatives);
+        match method {
+            Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
+                return self.cost_of_loops(method) + self.cost_of_table(Method::InverseDynamicsDerivatives);
+            }
+            Method::InverseMassMatrix => {
+                return self.cost_of_loops(method) + self.cost_of_table(Method::MassMatrix);
+            }
+            _ => {}
         }
         let count = u32::try_from(3 * self.statements(method)).unwrap_or(u32::MAX);
         let joints = u32::try_from(self.ancestors.len()).unwrap_or(u32::MAX);
