@@ -17,11 +17,8 @@ use crate::symbolic::Expr;
 const LONGEST_STRAIGHT_LINE: usize = 20_000;
 /// The most statements that the kinematics of all frames may have together.
 const LONGEST_KINEMATICS: usize = 50_000;
-/// The most statements of a straight line for `M⁻¹`. Beyond it loops take less: of a chain of 20 joints 0.6 of the time, where
-/// states in lanes take 1.4 times as long; of 16 joints they take 0.8 to 1.0, and states in lanes 1.3 times as long.
-const LONGEST_STRAIGHT_INVERSE: usize = 2_500;
-/// The same where branches are computed side by side, or where there are no such loops.
-const LONGEST_STRAIGHT_INVERSE_OTHERWISE: usize = 6_000;
+/// The most statements of a straight line for `M⁻¹`: beyond it loops over rows are as fast.
+const LONGEST_STRAIGHT_INVERSE: usize = 6_000;
 /// The largest robot whose many right-hand sides are solved in a straight line.
 const LARGEST_STRAIGHT_SOLVE: usize = 7;
 /// The same of one whose branches are computed side by side, those that are alike counted once.
@@ -88,7 +85,6 @@ pub(super) struct Plans {
     /// For each frame the joints below it, in sum.
     frame_joints: usize,
     suits_lanes: bool,
-    run_time: RunTime,
     /// How many speeds there are if branches that are alike count as one; all of them where none are computed side by side.
     unlike: usize,
     /// So many entries of a matrix a straight line computes.
@@ -131,7 +127,6 @@ impl Plans {
             parents,
             ancestors,
             suits_lanes,
-            run_time,
             must_factor,
         }
     }
@@ -153,7 +148,9 @@ impl Plans {
             {
                 Form::Loops
             }
-            Method::InverseMassMatrix if self.is_sooner_swept() => Form::Loops,
+            Method::InverseMassMatrix if self.statements_of_inverse() > LONGEST_STRAIGHT_INVERSE => {
+                Form::Loops
+            }
             _ => Form::StraightLine,
         }
     }
@@ -199,9 +196,9 @@ impl Plans {
             | Method::EquationsOfMotion
             | Method::InverseDynamicsDerivatives
             | Method::InverseDynamicsWithDerivatives => ENTRIES_FOR_LANES,
-            Method::InverseMassMatrix => {
-                return self.is_sooner_in_lanes(Method::MassMatrix) && self.is_sooner_swept();
-            }
+            // From M, of which a half will do. Of a chain of 20 joints it takes 0.6 of the time of a straight line, where states in
+            // lanes take 1.4 times as long; of 16 joints 0.8 to 1.0, and states in lanes 1.3 times as long.
+            Method::InverseMassMatrix => return self.is_sooner_in_lanes(Method::MassMatrix),
             // They begin as those do.
             Method::ForwardDynamicsDerivatives | Method::ForwardDynamicsWithDerivatives => {
                 return self.is_sooner_in_lanes(Method::InverseDynamicsDerivatives);
@@ -242,15 +239,6 @@ impl Plans {
             Method::Velocity(_) => 20 * self.frame_joints / self.frames.max(1),
             Method::Acceleration(_) => 30 * self.frame_joints / self.frames.max(1),
         }
-    }
-
-    /// Whether the run time inverts M as soon as a straight line would.
-    fn is_sooner_swept(&self) -> bool {
-        let longest = match self.run_time {
-            RunTime::Core if !self.is_solved_side_by_side() => LONGEST_STRAIGHT_INVERSE,
-            _ => LONGEST_STRAIGHT_INVERSE_OTHERWISE,
-        };
-        self.statements_of_inverse() > longest
     }
 
     /// About how many statements factoring M and solving for half of each unit column takes.
