@@ -2,12 +2,12 @@
 
 pub mod each;
 pub mod elimination_tree;
+mod gauss_jordan;
 mod in_place;
 pub mod inverse;
 pub mod manifold;
 pub mod recursion;
 pub mod solve;
-mod sweep;
 
 pub use core::option::Option::{None, Some};
 
@@ -85,4 +85,18 @@ pub fn put_on_diagonal<T: Scalar, const N: usize, const K: usize>(
 #[inline(always)]
 pub const fn vector<T, const N: usize>(entries: [T; N]) -> SVector<T, N> {
     SVector::from_array_storage(ArrayStorage([entries]))
+}
+
+/// An entry that is there; zero if there is none.
+#[inline(always)]
+fn entry<T: Scalar>(x: &[T], index: usize) -> T {
+    x.get(index).copied().unwrap_or_else(T::zero)
+}
+
+/// Writes an entry that is there.
+#[inline(always)]
+fn set<T>(x: &mut [T], index: usize, value: T) {
+    if let Some(x) = x.get_mut(index) {
+        *x = value;
+    }
 }

@@ -120,21 +120,6 @@ impl<'f, S: Scalar> Factor<'f, S> {
         }
         inverse
     }
-
-    /// `L⁻¹`, all of it.
-    pub fn inverse_triangle(&self) -> Square<S> {
-        let n = self.parents.len();
-        let mut R = vec![vec![S::zero(); n]; n];
-        for i in 0..n {
-            R[i][i] = S::one();
-            // A row of the identity less those before it.
-            for j in ancestors(&self.parents, i) {
-                let between = ancestors(&self.parents, i).take_while(|&k| k != j);
-                R[i][j] = between.fold(-self.L[i][j], |sum, k| sum - self.L[i][k] * R[k][j]);
-            }
-        }
-        R
-    }
 }
 
 fn ancestors(parents: &[Option<usize>], k: usize) -> impl Iterator<Item = usize> + '_ {

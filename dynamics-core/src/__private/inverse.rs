@@ -5,8 +5,8 @@
 use nalgebra::SMatrix;
 
 use super::elimination_tree::EliminationTree;
+use super::gauss_jordan::invert;
 use super::solve::Factors;
-use super::sweep::invert;
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 

@@ -14,8 +14,8 @@ use nalgebra::SMatrix;
 
 use super::columns;
 use super::elimination_tree::{EliminationTree, rows_to_solve};
+use super::gauss_jordan::invert;
 use super::in_place::{blank, put};
-use super::sweep::invert;
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::product::{
     COLUMNS, FEW_COLUMNS, LONG_STRIP, STRIP, by_rows, has_lanes, multiply, parts, products, row_of,

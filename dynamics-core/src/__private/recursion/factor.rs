@@ -6,8 +6,7 @@ use nalgebra::{SMatrix, SVector};
 
 use super::sweep::difference;
 use super::{Tree, entries};
-use crate::__private::{EliminationTree, Factors};
-use crate::__private::{columns, inverse_of};
+use crate::__private::{EliminationTree, Factors, columns, inverse_of};
 use crate::scalar::Scalar;
 
 impl<T: Scalar, const NL: usize, const NQ: usize, const NV: usize> Tree<T, NL, NQ, NV> {

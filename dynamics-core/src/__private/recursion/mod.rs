@@ -29,6 +29,7 @@ mod screw;
 mod sweep;
 mod vector;
 
+use crate::__private::entry;
 use crate::scalar::Scalar;
 use nalgebra::SVector;
 
@@ -144,10 +145,4 @@ pub struct Friction<T> {
 fn entries<T: Scalar, const N: usize>(x: &SVector<T, N>) -> &[T; N] {
     let [entries] = &x.data.0;
     entries
-}
-
-/// An entry of `x`, zero if there is none.
-#[inline(always)]
-fn entry<T: Scalar>(x: &[T], index: usize) -> T {
-    x.get(index).copied().unwrap_or_else(T::zero)
 }

@@ -3,7 +3,7 @@
 use core::mem::replace;
 
 use super::place::Placed;
-use super::{InLanes, Vectors, add, at, set, six_at};
+use super::{InLanes, Vectors, add, entry, set, six_at};
 use crate::__private::recursion::screw::{Twist, Wrench};
 use crate::__private::recursion::vector::{Matrix, Vector};
 use crate::scalar::Scalar;
@@ -16,7 +16,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         let mut sums = [T::zero(); K];
         for k in (0..N).rev() {
             for (x, sum) in numbers.iter_mut().zip(&mut sums) {
-                *sum += at(x.as_slice(), k);
+                *sum += entry(x.as_slice(), k);
                 set(x.as_mut_slice(), k, *sum);
             }
             if self.is_chain {
@@ -64,13 +64,14 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
             let rotation = placed.rotation(k);
             let half = rotation.product(Matrix::symmetric(six_at(&masses.second, link))).0.map(Vector);
             let axes = rotation.0.map(Vector);
-            let entry = |i: usize, j: usize| match (half.get(i), axes.get(j)) {
+            let product = |i: usize, j: usize| match (half.get(i), axes.get(j)) {
                 (Some(a), Some(b)) => a.dot(*b),
                 _ => T::zero(),
             };
-            let turned = [entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)];
-            set(&mut moments.mass, k, at(&masses.mass, link));
-            moments.first.set(k, rotation.times(Vector([at(x, link), at(y, link), at(z, link)])));
+            let turned =
+                [product(0, 0), product(1, 1), product(2, 2), product(0, 1), product(0, 2), product(1, 2)];
+            set(&mut moments.mass, k, entry(&masses.mass, link));
+            moments.first.set(k, rotation.times(Vector([entry(x, link), entry(y, link), entry(z, link)])));
             for (x, value) in moments.second.iter_mut().zip(turned) {
                 set(x, k, value);
             }
@@ -118,7 +119,7 @@ impl<T: Scalar, const N: usize> MomentsInLanes<T, N> {
 
     #[inline(always)]
     pub(super) fn at(&self, k: usize) -> Moments<T> {
-        Moments { mass: at(&self.mass, k), first: self.first.at(k), second: six_at(&self.second, k) }
+        Moments { mass: entry(&self.mass, k), first: self.first.at(k), second: six_at(&self.second, k) }
     }
 }
 
@@ -128,12 +129,12 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     pub(super) fn collect_moments(&self, placed: &Placed<T, N>, moments: &mut MomentsInLanes<T, N>) {
         let MomentsInLanes { mass, first, second } = moments;
         self.sum([mass]);
-        self.give(first.0.each_mut(), |k| placed.offsets.at(k).scaled(at(mass, k)).0);
+        self.give(first.0.each_mut(), |k| placed.offsets.at(k).scaled(entry(mass, k)).0);
         self.sum(first.0.each_mut());
         // Σ + f dᵀ + d hᵀ, with the first moment f from the parent's origin.
         self.give(second.each_mut(), |k| {
             let (Vector([x, y, z]), Vector([hx, hy, hz])) = (placed.offsets.at(k), first.at(k));
-            let Vector([fx, fy, fz]) = first.at(k).plus_scaled(placed.offsets.at(k), at(mass, k));
+            let Vector([fx, fy, fz]) = first.at(k).plus_scaled(placed.offsets.at(k), entry(mass, k));
             [
                 fx.mul_add(x, x * hx),
                 fy.mul_add(y, y * hy),
@@ -154,7 +155,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         for (axis, row) in first.iter_mut().enumerate() {
             self.give(row.0.each_mut(), |k| {
                 let Vector(offset) = placed.offsets.at(k);
-                zeroth.at(k).scaled(at(&offset, axis)).0
+                zeroth.at(k).scaled(entry(&offset, axis)).0
             });
         }
         let [Vectors([a, b, c], _), Vectors([d, e, f], _), Vectors([g, h, i], _)] = first;

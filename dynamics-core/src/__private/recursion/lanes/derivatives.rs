@@ -17,8 +17,7 @@ use super::{InLanes, Vectors};
 use crate::__private::recursion::entries;
 use crate::__private::recursion::screw::Wrench;
 use crate::__private::recursion::vector::Vector;
-use crate::__private::{EliminationTree, Factors};
-use crate::__private::{columns, vector};
+use crate::__private::{EliminationTree, Factors, columns, vector};
 use crate::dynamics::{ForwardDynamicsDerivatives, InverseDynamicsDerivatives};
 use crate::scalar::Scalar;
 

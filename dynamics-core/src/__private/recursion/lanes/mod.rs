@@ -25,6 +25,7 @@ mod place;
 
 use super::vector::Vector;
 use super::{Joint, Tree};
+use crate::__private::{entry, set};
 use crate::scalar::Scalar;
 
 /// A tree of which link `k` has coordinate `k`, speed `k` and no other, and stands right before its descendants; or of which
@@ -83,7 +84,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     fn coordinates(&self, q: &[T; NQ]) -> [T; N] {
         let mut coordinates = [T::zero(); N];
         for k in Self::BASE..N {
-            set(&mut coordinates, k, at(q, k + NQ.saturating_sub(N)));
+            set(&mut coordinates, k, entry(q, k + NQ.saturating_sub(N)));
         }
         coordinates
     }
@@ -125,7 +126,7 @@ impl<T: Scalar, const N: usize> Vectors<T, N> {
     #[inline(always)]
     fn at(&self, k: usize) -> Vector<T> {
         let [x, y, z] = &self.0;
-        Vector([at(x, k), at(y, k), at(z, k)])
+        Vector([entry(x, k), entry(y, k), entry(z, k)])
     }
 
     #[inline(always)]
@@ -139,21 +140,7 @@ impl<T: Scalar, const N: usize> Vectors<T, N> {
 /// Six numbers of one link.
 #[inline(always)]
 fn six_at<T: Scalar, const N: usize>([a, b, c, d, e, f]: &[[T; N]; 6], k: usize) -> [T; 6] {
-    [at(a, k), at(b, k), at(c, k), at(d, k), at(e, k), at(f, k)]
-}
-
-/// An entry that is there.
-#[inline(always)]
-fn at<T: Scalar>(x: &[T], k: usize) -> T {
-    x.get(k).copied().unwrap_or_else(T::zero)
-}
-
-/// Writes an entry that is there.
-#[inline(always)]
-fn set<T>(x: &mut [T], k: usize, value: T) {
-    if let Some(x) = x.get_mut(k) {
-        *x = value;
-    }
+    [entry(a, k), entry(b, k), entry(c, k), entry(d, k), entry(e, k), entry(f, k)]
 }
 
 /// Adds to an entry that is there.

@@ -1,7 +1,7 @@
 //! How the links move.
 
 use super::place::Placed;
-use super::{InLanes, Vectors, at};
+use super::{InLanes, Vectors, entry};
 use crate::__private::recursion::screw::Twist;
 use crate::__private::recursion::vector::Vector;
 use crate::scalar::Scalar;
@@ -57,7 +57,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
 
     /// What a free base does at these speeds, or its part of accelerations that these are.
     fn of_base(&self, placed: &Placed<T, N>, speeds: &[T; N]) -> Twist<T> {
-        (0..Self::BASE).fold(Twist::zero(), |sum, k| sum + placed.twist(k).scaled(at(speeds, k)))
+        (0..Self::BASE).fold(Twist::zero(), |sum, k| sum + placed.twist(k).scaled(entry(speeds, k)))
     }
 
     /// Writes the velocities for joint speeds `v`.
@@ -74,7 +74,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
                 Some(parent) if parent == last.0 => last.1,
                 Some(parent) => velocities.at(parent),
             };
-            let velocity = parent.carried(offset) + placed.twist(k).scaled(at(v, k));
+            let velocity = parent.carried(offset) + placed.twist(k).scaled(entry(v, k));
             velocities.set(k, velocity);
             last = (k, velocity);
         }
@@ -105,13 +105,13 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
                 Some(parent) => (velocities.at(parent), accelerations.at(parent)),
             };
             let (unit, w) = (placed.twist(k), velocity.angular);
-            let joint = unit.scaled(at(v, k));
+            let joint = unit.scaled(entry(v, k));
             let drift = Twist {
                 angular: w.cross(joint.angular),
                 linear: w.cross(w.cross(offset) + joint.linear + joint.linear),
             };
             let velocity = velocity.carried(offset) + joint;
-            let acceleration = acceleration.carried(offset) + drift + unit.scaled(at(a, k));
+            let acceleration = acceleration.carried(offset) + drift + unit.scaled(entry(a, k));
             velocities.set(k, velocity);
             accelerations.set(k, acceleration);
             last = (k, (velocity, acceleration));

@@ -2,7 +2,7 @@
 
 use core::array::from_fn;
 
-use super::{InLanes, Vectors, at, set};
+use super::{InLanes, Vectors, entry, set};
 use crate::__private::in_place::laid_down;
 use crate::__private::recursion::vector::{Matrix, Vector};
 use crate::scalar::Scalar;
@@ -54,8 +54,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
         for k in Self::BASE..N {
             let [.., z] = &placed.axes;
             let z = z.at(k);
-            placed.turns.set(k, z.scaled(at(&turns, k)));
-            placed.slides.set(k, z.scaled(at(&slides, k)));
+            placed.turns.set(k, z.scaled(entry(&turns, k)));
+            placed.slides.set(k, z.scaled(entry(&slides, k)));
         }
     }
 
@@ -63,7 +63,7 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
     #[inline(always)]
     fn place_base(&self, q: &[T; NQ], placed: &mut Placed<T, N>) {
         let ([_, _, _, quaternion @ ..], [link, ..]) =
-            (from_fn::<T, 7, _>(|i| at(q, i)), self.tree.links.as_slice())
+            (from_fn::<T, 7, _>(|i| entry(q, i)), self.tree.links.as_slice())
         else {
             return;
         };
@@ -96,8 +96,8 @@ impl<T: Scalar, const NL: usize, const NQ: usize, const N: usize> InLanes<'_, T,
                 Some(parent) => placed.place(parent),
             };
             let own = Matrix(link.rotation);
-            let along = own.third_column().scaled(at(coordinates, k) * at(slides, k));
-            let [x, y, z] = own.about_z(at(sines, k), at(cosines, k)).transpose().0;
+            let along = own.third_column().scaled(entry(coordinates, k) * entry(slides, k));
+            let [x, y, z] = own.about_z(entry(sines, k), entry(cosines, k)).transpose().0;
             let offset = combined(&parent.axes, (Vector(link.position) + along).0);
             let mut origin = parent.origin;
             for (x, y) in origin.iter_mut().zip(offset) {

@@ -22,7 +22,9 @@
 use core::ops::Range;
 
 use super::elimination_tree::EliminationTree;
+use super::in_place::mirror;
 use super::solve::Factors;
+use super::{entry, set};
 use crate::product::{LONG_STRIP, STRIP, by_rows, has_lanes};
 use crate::scalar::Scalar;
 
@@ -105,7 +107,7 @@ pub(super) fn invert<T: Scalar, const N: usize>(
     for strip in (0..N / STRIP).rev() {
         block = step(m, tree, strip * STRIP, &block, &mut multiples, factors.as_deref_mut());
     }
-    mirror(m);
+    mirror!(m, N);
 }
 
 /// Solves for the accelerations of the W joints from `first` on; returns the factors of the four before them.
@@ -383,39 +385,10 @@ fn write_transposed<T: Scalar, const N: usize, const W: usize>(
     }
 }
 
-/// Writes what is after the diagonal before it too.
-#[inline(never)]
-fn mirror<T: Scalar, const N: usize>(m: &mut [[T; N]; N]) {
-    for start in (0..N).step_by(STRIP) {
-        let end = N.min(start + STRIP);
-        if let Some((rows, after)) = m.get_mut(start..).and_then(<[_]>::split_first_chunk_mut::<STRIP>) {
-            write_transposed(after, start, rows, end);
-        }
-        for (i, j) in (start..end).flat_map(|i| (start..i).map(move |j| (i, j))) {
-            let value = m.get(j).map_or_else(T::zero, |row| entry(row, i));
-            if let Some(row) = m.get_mut(i) {
-                set(row, j, value);
-            }
-        }
-    }
-}
-
 /// W entries from `first` on.
 #[inline(always)]
 fn part<T: Scalar, const N: usize, const W: usize>(x: &[T; N], first: usize) -> [T; W] {
     x.get(first..).and_then(<[T]>::first_chunk).copied().unwrap_or([T::zero(); W])
-}
-
-#[inline(always)]
-fn entry<T: Scalar>(x: &[T], k: usize) -> T {
-    x.get(k).copied().unwrap_or_else(T::zero)
-}
-
-#[inline(always)]
-fn set<T>(x: &mut [T], k: usize, value: T) {
-    if let Some(x) = x.get_mut(k) {
-        *x = value;
-    }
 }
 
 /// Whether there are so many entries from `first` on among N.
