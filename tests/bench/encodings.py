@@ -26,11 +26,15 @@ METHODS = [
     ("iiwa14", "dID", "inverse_dynamics_derivatives"),
     ("iiwa14", "dFD", "forward_dynamics_derivatives"),
     ("chain4", "dFD", "forward_dynamics_derivatives"),
+    ("hyq", "1/M", "inverse_mass_matrix"),
     ("hyq", "dID", "inverse_dynamics_derivatives"),
     ("hyq", "dFD", "forward_dynamics_derivatives"),
     ("chain16", "ID", "inverse_dynamics"),
     ("chain16", "M", "mass_matrix"),
     ("chain16", "FD", "forward_dynamics"),
+    ("chain16", "1/M", "inverse_mass_matrix"),
+    ("chain32", "ID", "inverse_dynamics"),
+    ("chain32", "FD", "forward_dynamics"),
 ]
 OFFSETS = [0, 16, 32, 48, 256, 1040]  # of the code in a page
 CONSTANTS = 0x20000  # so much of the program, which begins at address zero, has all of them

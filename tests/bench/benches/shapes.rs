@@ -1,4 +1,4 @@
-//! Robots of other shapes and lengths than those of the race: `cargo run --release -p dynamics-bench --example shapes`.
+//! Robots of other shapes and lengths than those of the race: `cargo bench -p dynamics-bench --bench shapes`.
 //!
 //! Whether the code is as fast where nobody looks: chains whose joints are no multiple of a register's lanes, five and six
 //! legs, two arms, a humanoid; a long chain that nothing holds.
