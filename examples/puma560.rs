@@ -65,7 +65,7 @@ fn linearisation() {
         a.fixed_view::<6, 6>(6, 6).abs().max()
     );
     println!("B = [0; B2] with B2, 1/(kg m²),{:.3}", rounded(b.fixed_view::<6, 6>(6, 0).into_owned()));
-    println!("The largest drift is {:.1e}.", drift.abs().max());
+    println!("There x' = 0 remains by {:.1e}, the largest entry of x'.", drift.abs().max());
 }
 
 /// To three places, and without the sign of zero.

@@ -335,10 +335,17 @@ fn checks<'g>(args: &Args, robot: &Robot<'g>, graph: &'g Graph) -> String {
     let rough =
         rough.map_or(String::new(), |why| format!("  {at}, {}: its force has no value there\n", why.fact()));
     let methods = &robot.compiled.methods;
-    let compared = methods.iter().filter(|method| matches!(method.plan, Plan::StraightLine { .. })).count();
-    let all = methods.len();
+    let (compared, loops): (Vec<_>, Vec<_>) =
+        methods.iter().partition(|method| matches!(method.plan, Plan::StraightLine { .. }));
+    let (compared, all) = (compared.len(), methods.len());
+    let loops: Vec<_> = loops.iter().map(|method| method.method.name().to_owned()).collect();
+    let others = match loops.is_empty() {
+        true => String::new(),
+        false => format!("; loops of the run time, which its tests compare: {}", listed(&loops)),
+    };
     format!(
-        "  {inertias}\n  {definite}\n{rough}  {compared} of {all} methods were run against the plain recursion, and agree\n"
+        "  {inertias}\n  {definite}\n{rough}  {compared} of {all} methods were run against the plain recursion, and \
+         agree{others}\n"
     )
 }
 

@@ -142,7 +142,7 @@ pub(crate) fn text(exponents: Exponents) -> String {
         (above, below) if below.is_empty() && above.is_empty() => "rad".to_owned(),
         (above, below) if below.is_empty() => above,
         (above, below) => {
-            let above = if above.is_empty() { "1".to_owned() } else { above };
+            let above = if above.is_empty() { "rad".to_owned() } else { above };
             let below = if below.len() > 1 { format!("({})", below.join("·")) } else { below.concat() };
             format!("{above}/{below}")
         }

@@ -41,9 +41,9 @@ impl Given<'_> {
         let is_named = self.text.contains('=');
         let (count, needed) = (words.len(), self.entries.names.len());
         if !is_named && count != needed {
-            let s = if count == 1 { "" } else { "s" };
-            let title = format!("`{}` has {count} number{s}, and needs {needed}", self.option);
-            let problem = Problem::new(title).help(format!("give {}", wanted(self.entries.names)));
+            let entries = if count == 1 { "entry" } else { "entries" };
+            let title = format!("`{}` has {count} {entries}, and needs {needed}", self.option);
+            let problem = Problem::new(title).help(format!("give {}", self.wanted(0)));
             return vec![self.spotted(problem, self.trimmed(0..self.text.len()))];
         }
         let mut wrong = vec![];
@@ -52,9 +52,16 @@ impl Given<'_> {
             let sign = self.text[word.clone()].rfind('=').filter(|_| is_named).map(|at| word.start + at);
             let name = self.trimmed(word.start..sign.unwrap_or(word.start));
             let value = self.trimmed(sign.map_or(word.start, |at| at + 1)..word.end);
+            if is_named && sign.is_none() {
+                let title =
+                    format!("`{}` in `{}` has no name", shown(&self.text[value.clone()]), self.option);
+                let help = format!("give {}", self.wanted(0));
+                wrong.push(self.spotted(Problem::new(title).help(help), value));
+                continue;
+            }
             let entry = match is_named {
                 true => position(&self.option, &self.text[name.clone()], self.entries.names)
-                    .map_err(|problem| self.spotted(problem, if sign.is_some() { name } else { word })),
+                    .map_err(|problem| self.spotted(problem, name)),
                 false => Ok(k),
             };
             match entry.and_then(|entry| Ok((entry, self.number(entry, value)?))) {
@@ -91,10 +98,8 @@ impl Given<'_> {
             Err(Wrong::NoNumber) => {
                 let title = format!("`{}` in `{}` is no number", shown(text), self.option);
                 let help = format!(
-                    "give {}, with commas between them, or some by their names, as in `{}=0.1`; in SI units, or with \
-                     units, as in `30deg`, `2mm` and `30deg / 1s`",
-                    wanted(names),
-                    shown(&names[entry])
+                    "give {}; in SI units, or with units, as in `30deg`, `2mm` and `30deg / 1s`",
+                    self.wanted(entry)
                 );
                 Err(self.spotted(Problem::new(title).help(help), bytes))
             }
@@ -108,6 +113,14 @@ impl Given<'_> {
                 })
             }
         }
+    }
+
+    /// What to give instead, with an entry for an example.
+    fn wanted(&self, entry: usize) -> String {
+        let names = self.entries.names;
+        let example = names.get(entry).map_or("", String::as_str);
+        let all = wanted(names);
+        format!("{all}, with commas between them, or some by their names, as in `{}=0.1`", shown(example))
     }
 
     /// Without spaces at both ends.

@@ -140,9 +140,10 @@ pub(crate) fn read(argument: &str, file: &Path, robot: &Robot<'_>) -> Result<Sta
 
 /// The value of an entry: a number, or a text with a unit.
 fn number(key: &str, found: &Value, entry: usize, entries: &Entries<'_>) -> Result<f64, Problem> {
+    // A number in quotes is a mistake of who wrote them.
+    let is_quoted = found.as_str().is_some_and(|text| text.parse::<f64>().is_ok());
     let read = match found {
-        // A number in quotes is a mistake of who wrote them.
-        Value::String(text) if text.parse::<f64>().is_err() => entries.number(entry, text, 0),
+        Value::String(text) if !is_quoted => entries.number(entry, text, 0),
         found => found.as_f64().ok_or(Wrong::NoNumber),
     };
     read.map_err(|wrong| match wrong {
@@ -150,7 +151,10 @@ fn number(key: &str, found: &Value, entry: usize, entries: &Entries<'_>) -> Resu
             let name = entries.names.get(entry).map_or("", String::as_str);
             let found = shown(&found.to_string());
             let title = format!("`{key}` of `{}` is {found}, and no number", shown(name));
-            Problem::new(title).help(format!("give {}", wanted(entries.names)))
+            Problem::new(title).help(match is_quoted {
+                true => "leave the quotes out, or write a unit behind the number, as in `\"30deg\"`",
+                false => "give a finite number, or a text with a unit, as in `\"30deg\"`",
+            })
         }
         Wrong::Of(found) => {
             let problem = Problem::new(found.message.clone()).help(found.help_text());
@@ -209,9 +213,11 @@ fn unknown_key(key: &str) -> Problem {
 /// As in "2 finite numbers, of slider, hinge".
 pub(crate) fn wanted(names: &[String]) -> String {
     const SHOWN: usize = 19; // a quadruped's
+    const FEW: usize = 5; // are not worth to be left out
     let count = names.len();
-    let shown = names.iter().take(SHOWN).map(String::as_str).collect::<Vec<_>>().join(", ");
-    let more = if count > SHOWN { format!(" and {} more", count - SHOWN) } else { String::new() };
+    let shown = if count <= SHOWN + FEW { count } else { SHOWN };
+    let more = if count > shown { format!(" and {} more", count - shown) } else { String::new() };
+    let shown = names.iter().take(shown).map(String::as_str).collect::<Vec<_>>().join(", ");
     let s = if count == 1 { "" } else { "s" };
     format!("{count} finite number{s}, of {shown}{more}")
 }

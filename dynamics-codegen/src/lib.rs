@@ -51,7 +51,13 @@ pub fn derive(input: TokenStream, read: impl FnOnce(&str) -> Result<Vec<u8>, Str
     match generate_with(&input, read) {
         Ok(text) => text.parse().expect("generated text is made of whole tokens"),
         Err(diagnostics) => {
-            let mut tokens = diagnostics.into_compile_errors();
+            let mut again = Diagnostics::new();
+            let file = spec::parse(&input, &mut again).options.urdf;
+            again.take(); // they are among the others
+            let mut tokens = match file {
+                Some(path) => diagnostics.into_compile_errors_of(&path.place),
+                None => diagnostics.into_compile_errors(),
+            };
             tokens.extend(emit::rust::stub(&input));
             tokens
         }

@@ -39,6 +39,11 @@ impl Element for f32 {
 }
 
 /// Floats side by side: a [`Scalar`] that computes [`COUNT`](Self::COUNT) numbers at a time.
+#[diagnostic::on_unimplemented(
+    message = "`{Self}` is one number, and numbers side by side are needed",
+    note = "with `batch` and `Rollouts` a robot with fields has them in lanes, too: \
+            `Robot::<Native<f64>> {{ m: 2.0.into() }}`, by `use dynamics_core::lanes::Native`"
+)]
 pub trait Lanes: Scalar + From<Self::Element> {
     /// What is in a lane: `f32` or `f64`.
     type Element: Element;

@@ -2,7 +2,7 @@ use dynamics_core::prelude::*;
 
 #[derive(Dynamics)]
 #[joint(shoulder: revolute(z), world -> arm)]
-#[body(arm, mass = m, com = [length, 0, 0], inertia = diag(ii, i, i))]
+#[body(arm, mass = m, com = [length, 0, 0], inertia = diag(mm * l^2, i, i))]
 struct Arm<T> {
     m: T,
     l: T,

@@ -135,6 +135,8 @@ fn a_wrong_state_names_the_joints() {
         (r#"{"tua": [1, 2]}"#, "did you mean `tau`?"),
         (r#"{"speed": [1, 2]}"#, "give `q`, `v`, `a` or `tau`"),
         (r#"{"q": {"hinge": "1"}}"#, "`q` of `hinge` is \"1\", and no number"),
+        (r#"{"q": {"hinge": "1"}}"#, "leave the quotes out, or write a unit behind the number"),
+        (r#"{"q": {"hinge": []}}"#, "give a finite number, or a text with a unit, as in `\"30deg\"`"),
         (r#"{"v": {"hing": 1}}"#, "did you mean `hinge`?"),
         (r#"{"v": 1}"#, "expected a list of numbers, or an object"),
         ("[1, 2]", "an object of vectors"),
@@ -163,7 +165,10 @@ fn units_of_a_start_are_those_of_its_joints() {
     assert_eq!(state(units).ok(), state(plain).ok());
     for (given, expected) in [
         (r#"{"q": ["3deg", 0]}"#, "`3deg` has the unit rad, and `slider` m"),
-        (r#"{"a": {"hinge": "2deg / 1s"}}"#, "give a rate, `2deg / 1s / 1s`, or a number, which is in 1/s^2"),
+        (
+            r#"{"a": {"hinge": "2deg / 1s"}}"#,
+            "give a rate, `2deg / 1s / 1s`, or a number, which is in rad/s^2",
+        ),
         (r#"{"tau": {"hinge": "2N"}}"#, "`2N` has the unit kg·m/s^2, and `hinge` kg·m^2/s^2"),
         (r#"{"tau": {"hinge": "2 N"}}"#, "`tau` of `hinge` is \"2 N\", and no number"),
     ] {
@@ -198,7 +203,9 @@ fn a_wrong_simulation_does_not_start() {
     }
     let usual = [&simulate[..], &["--step", "0.1", "--time", "1"]].concat();
     for (extra, expected) in [
-        (["--q", "1"], "`--q` has 1 number, and needs 2"),
+        (["--q", "1"], "`--q` has 1 entry, and needs 2"),
+        (["--q", "hinge:1"], "or some by their names, as in `slider=0.1`"),
+        (["--q", "hinge=0.1,0.2"], "`0.2` in `--q` has no name"),
         (["--v", "1,x"], "`x` in `--v` is no number"),
         (["--q", "0,nan"], "`--q` of `hinge` is NaN"),
         (["--q", "hing=1"], "did you mean `hinge`?"),

@@ -8,7 +8,7 @@ pub use code::Code;
 pub use place::Place;
 pub use suggest::did_you_mean;
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Span, TokenStream};
 
 /// One mistake.
 #[derive(Clone, Debug)]
@@ -111,9 +111,14 @@ impl Diagnostics {
         if self.is_empty() { Ok(()) } else { Err(std::mem::take(self)) }
     }
 
-    /// One `compile_error!` for each mistake, at the user's tokens.
-    pub fn into_compile_errors(mut self) -> TokenStream {
-        self.take().iter().map(|found| found.place.compile_error(&found.text())).collect()
+    /// One `compile_error!` for each mistake, at the user's tokens; of those in a text, at the derive.
+    pub fn into_compile_errors(self) -> TokenStream {
+        self.into_compile_errors_of(&Span::call_site().into())
+    }
+
+    /// The same, but of mistakes in a text at what names its file.
+    pub fn into_compile_errors_of(mut self, file: &Place) -> TokenStream {
+        self.take().iter().map(|found| found.place.compile_error(&found.text(), file)).collect()
     }
 
     /// The mistakes as text, for a terminal or a test.

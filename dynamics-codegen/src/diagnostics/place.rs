@@ -45,11 +45,13 @@ impl Place {
         }
     }
 
-    /// A `compile_error!` that rustc shows at this place; for a text, at the derive.
-    pub(super) fn compile_error(&self, message: &str) -> TokenStream {
-        let (start, end) = match self {
-            Self::Tokens { start, end } => (*start, *end),
-            Self::Text { .. } => (Span::call_site(), Span::call_site()),
+    /// A `compile_error!` that rustc shows at this place; for a text, where its `file` is named.
+    pub(super) fn compile_error(&self, message: &str, file: &Self) -> TokenStream {
+        let (start, end) = match (self, file) {
+            (Self::Tokens { start, end }, _) | (Self::Text { .. }, Self::Tokens { start, end }) => {
+                (*start, *end)
+            }
+            (Self::Text { .. }, Self::Text { .. }) => (Span::call_site(), Span::call_site()),
         };
         let mut text = Literal::string(message);
         text.set_span(end);

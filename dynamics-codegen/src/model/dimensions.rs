@@ -6,7 +6,7 @@
 
 use super::quantities::{Quantity, Slot};
 use super::unit_text::{angle_text, unit_text};
-use super::values::{Values, for_each_name};
+use super::values::{Values, for_each_name, is_pi};
 use crate::diagnostics::{Code, Diagnostic, Diagnostics};
 use crate::spec::{Formula, FormulaKind, Function, Moving};
 use crate::symbolic::Number;
@@ -74,10 +74,12 @@ impl<'a> Units<'a> {
         let count = values.fields().len();
         let mut units =
             Self { values, solved: vec![None; count], origins: vec![None; count], is_term: false };
-        // A field where a number is needed is a mistake already, and tells nothing of the field's unit.
+        // A field where a number is needed is a mistake already, and tells nothing of the field's unit; so is a name that
+        // nothing has, and of it nobody knows a unit.
         let (bare, composed): (Vec<&Slot>, Vec<&Slot>) = slots
             .iter()
             .filter(|slot| slot.constant.is_none() || !units.names_field(slot.formula))
+            .filter(|slot| slot.is_term() || !units.names_nothing(slot.formula))
             .partition(|slot| units.bare_field(slot.formula).is_some());
         let mut wrong = vec![];
         for slot in bare.into_iter().chain(composed) {
@@ -102,6 +104,13 @@ impl<'a> Units<'a> {
     fn names_field(&self, formula: &Formula) -> bool {
         let mut found = false;
         for_each_name(formula, &mut |name| found |= self.values.field(name).is_some());
+        found
+    }
+
+    /// Whether a name in it is of no field, nor of π.
+    fn names_nothing(&self, formula: &Formula) -> bool {
+        let mut found = false;
+        for_each_name(formula, &mut |name| found |= self.values.field(name).is_none() && !is_pi(name));
         found
     }
 

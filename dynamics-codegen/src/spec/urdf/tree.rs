@@ -2,6 +2,7 @@
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
+use std::collections::hash_map::Entry;
 
 use rustc_hash::FxHashMap;
 
@@ -94,9 +95,19 @@ fn check_counts(parts: &Parts, spec: &RobotSpec, robot: &Place, diags: &mut Diag
 
 fn check_distinct<'s>(kind: &str, names: impl Iterator<Item = &'s Name>, diags: &mut Diagnostics) {
     let mut seen = FxHashMap::default();
-    let twice = names.filter(|name| seen.insert(name.text.as_str(), ()).is_some());
-    for name in twice.take(MISTAKES_OF_A_KIND) {
-        let message = format!("there are two {kind}s {}", quoted(&name.text));
+    let twice = names.filter_map(|name| match seen.entry(name.text.as_str()) {
+        Entry::Vacant(free) => {
+            free.insert(&name.place);
+            None
+        }
+        Entry::Occupied(first) => Some((name, *first.get())),
+    });
+    for (name, first) in twice.take(MISTAKES_OF_A_KIND) {
+        let line = match first {
+            Place::Text { line, .. } => format!(", the first in line {line}"),
+            Place::Tokens { .. } => String::new(),
+        };
+        let message = format!("there are two {kind}s {}{line}", quoted(&name.text));
         let duplicate = Diagnostic::new(Code::NameDuplicate, &name.place, message);
         diags.push(duplicate.help(format!("give each {kind} a name of its own")));
     }
