@@ -1,8 +1,9 @@
 //! Solving with a mass matrix for many right-hand sides at once.
 //!
 //! By the inverse of the triangular factor: that is the product of two triangular matrices with the right-hand sides,
-//! in lanes over their rows, with no step that waits for another. Unlike `M⁻¹` itself it loses nothing to the condition
-//! of M: all that is ill-conditioned stays in D. What the tree leaves zero is skipped, strip by strip of rows.
+//! in lanes over their rows, with no step that waits for another. A product with `M⁻¹` leaves a residual that grows with
+//! the condition of M; of this one most stays in D, and R takes over that of the joints solved for before it. What the tree
+//! leaves zero is skipped, strip by strip of rows.
 //!
 //! A scalar with lanes of its own leaves none to the rows: so many are summed at a time as fit the registers, and each sum
 //! has the terms that a float's strip has, in their order, so that every lane has the bits of one float.
