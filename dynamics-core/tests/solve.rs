@@ -106,6 +106,41 @@ fn solves_for_one<const N: usize>(parents: &[Option<usize>; N], tree: &'static E
     assert_eq!(inverse_of(m, tree), forward.da_dtau);
 }
 
+/// Of a plane chain of N equal points, whose condition grows as N⁴, and forces that cause accelerations of one size: what is
+/// solved for leaves the roundings of its sums, a product with the inverse a thousand times as much.
+#[test]
+fn what_is_solved_leaves_no_more_than_roundings() {
+    const N: usize = 52;
+    const TREE: EliminationTree<N> = EliminationTree::CHAIN;
+    /// Of ‖M‖·‖X‖: two sums of N terms, each of which rounds by up to ε/2.
+    const RESIDUAL: f64 = N as f64 * f64::EPSILON;
+    // Where the joints are, and behind each the point of its link.
+    let mut places = [[0.0_f64; 2]; N + 1];
+    let mut angle = 0.0;
+    for k in 0..N {
+        angle += 0.1 * (k as f64).sin();
+        places[k + 1] = [places[k][0] + f64::cos(angle), places[k][1] + f64::sin(angle)];
+    }
+    let m = SMatrix::<f64, N, N>::from_fn(|i, j| {
+        let arm = |k: usize, from: usize| [0, 1].map(|axis| places[k][axis] - places[from][axis]);
+        let of_point = |k: usize| {
+            let ([a, b], [c, d]) = (arm(k, i), arm(k, j));
+            a * c + b * d
+        };
+        (i.max(j) + 1..=N).map(of_point).sum()
+    });
+    let mut random = random_numbers(N as u64);
+    let b = m * SMatrix::<f64, N, N>::from_fn(|_, _| random());
+    let (factors, inverse) = inverted(m.data.0, &TREE);
+    let inverse = SMatrix::<f64, N, N>::from_fn(|i, j| inverse[j][i]);
+    let derivatives = InverseDynamicsDerivatives { dtau_dq: b, dtau_dv: b, dtau_da: inverse };
+    let residual = |x: SMatrix<f64, N, N>| (m * x + b).norm() / (m.norm() * x.norm());
+    let (solved, product) =
+        (residual(forward_from_inverse(&derivatives, &factors).da_dq), residual(-inverse * b));
+    assert!(solved < RESIDUAL, "{solved:e}");
+    assert!(product > 1e3 * solved, "a product would do: {product:e}, and {solved:e}");
+}
+
 /// Several matrices as one, of whose scalar rows and columns are taken otherwise. In the last one there are numbers that
 /// are not finite.
 #[cfg(feature = "simd")]
