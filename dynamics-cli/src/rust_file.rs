@@ -34,7 +34,12 @@ pub(crate) fn robot(file: &str, text: &str, wanted: Option<&str>) -> Result<Deri
         None if found.len() == 1 => 0,
         None => {
             let problem = Problem::new(format!("{file} has {} robots: {}", found.len(), list()));
-            return Err(problem.help(format!("choose one, as by `--robot {}`", names[0])).into());
+            let is_alone = |name: &&String| names.iter().filter(|other| other == name).count() == 1;
+            let help = match names.iter().find(is_alone) {
+                Some(name) => format!("choose one, as by `--robot {name}`"),
+                None => "give each a name of its own, and choose by `--robot`".to_owned(),
+            };
+            return Err(problem.help(help).into());
         }
         Some(wanted) => {
             let mut of_name = (0..names.len()).filter(|&k| names[k] == wanted);

@@ -111,6 +111,9 @@ fn one_of_several_is_chosen() {
     let shown = |text: String| text.replace(&file, "two.rs");
     let complaint = shown(dynamics(&["check", &file]).failed(1));
     assert!(complaint.contains("two.rs has 2 robots: `Cart`, `Arm`") && complaint.contains("--robot Cart"));
+    let namesakes = b"#[derive(Dynamics)]\nstruct A;\nmod b {\n    #[derive(Dynamics)]\n    struct A;\n}";
+    let complaint = dynamics_on(namesakes, &["check", "-"]).failed(1);
+    assert!(complaint.contains("give each a name of its own"), "{complaint}");
     let complaint = shown(dynamics(&["count", &file, "--robot", "Carts"]).failed(1));
     assert!(complaint.contains("did you mean `Cart`?"), "{complaint}");
     let arm = dynamics(&["check", &file, "--robot", "Arm"]).ok();
