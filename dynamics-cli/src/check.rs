@@ -1,10 +1,12 @@
 //! `dynamics check FILE`: what was read, and whether it can be a robot.
 
+use std::io::Write;
+
 use dynamics_codegen::diagnostics::{Diagnostics, Place};
 use dynamics_codegen::model::names::check_types;
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
-use dynamics_codegen::spec::urdf::Note;
+use dynamics_codegen::spec::urdf::{Note, Report};
 use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
 use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
@@ -90,6 +92,7 @@ fn summary<'g>(
         text += &format!("\nabsent\n{absent}");
     }
     for (title, notes) in [
+        ("suspicious", &report.suspicions),
         ("merged", &report.merged),
         ("ignored", &report.ignored),
         ("snapped", &report.snapped),
@@ -359,6 +362,13 @@ fn absent(robot: &Robot<'_>) -> String {
 fn notes(title: &str, notes: &[Note], input: &Input) -> String {
     let lines: String = placed(notes, input).iter().map(|line| format!("  {line}\n")).collect();
     if lines.is_empty() { lines } else { format!("\n{title}\n{lines}") }
+}
+
+/// Tells those who do not check what looks like a mistake in the file, and is taken as it is written.
+pub(crate) fn warn(report: &Report, input: &Input) {
+    for line in placed(&report.suspicions, input) {
+        let _ = writeln!(std::io::stderr(), "warning: {line}");
+    }
 }
 
 /// Notes with their places, in the order of the file.

@@ -15,7 +15,11 @@ pub(crate) fn for_the_command_line(text: &str) -> String {
     said += rest;
     for (written, given) in [
         ("`base = free`", "`--base free`"),
-        ("`base`", "`--base`"),
+        // Many a link is called so: with the words around it.
+        ("instead of `base`", "instead of `--base`"),
+        ("leave out `base`", "leave out `--base`"),
+        ("leave `base` out", "leave `--base` out"),
+        ("`base` says how", "`--base` says how"),
         ("`gravity = [0, 0, -9.81]`", "`--gravity '[0, 0, -9.81]'`"),
         (
             "name a field of the struct, or write a number",
@@ -65,6 +69,7 @@ mod tests {
                 "write `#[joint(n: free, world -> a)]` instead of `base`",
                 "write `--joint 'n: free, world -> a'` instead of `--base`",
             ),
+            ("`base` is welded to `world`", "`base` is welded to `world`"),
             ("`#[potential(k / 2 * (r - r0)^2)]`", "`--potential 'k / 2 * (r - r0)^2'`"),
             ("described on the struct as well", "described on the command line as well"),
             ("`#[derive(Dynamics)]` and #[", "`#[derive(Dynamics)]` and #["),

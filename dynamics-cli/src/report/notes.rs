@@ -8,6 +8,7 @@ use crate::check::placed;
 pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let report = &subject.robot.report;
     let lists = [
+        ("Suspicious", &report.suspicions, "What is taken as it is written, and looks like a mistake."),
         (
             "Merged",
             &report.merged,

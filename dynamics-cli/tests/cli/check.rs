@@ -1,6 +1,6 @@
 //! `dynamics check` and `dynamics count`: what is said of sound robots.
 
-use super::{ROBOTS, dynamics, dynamics_on, model};
+use super::{ROBOTS, dynamics, dynamics_on, folder, model};
 
 #[test]
 fn the_cart_pole() {
@@ -98,3 +98,57 @@ const TREE: &str = r#"<robot name="two arms">
   <gazebo/>
 </robot>
 "#;
+
+/// What is taken as radians, and nobody meant, is said by each command: in the file of a struct it would be a mistake.
+#[test]
+fn degrees_in_a_file_are_suspected_aloud() {
+    let file = r#"<robot name="arm"><link name="base"/>
+<link name="arm"><inertial><origin xyz="0 0 1"/><mass value="2"/>
+<inertia ixx="0.1" iyy="0.1" izz="0.1" ixy="0" ixz="0" iyz="0"/></inertial></link>
+<joint name="hinge" type="revolute"><parent link="base"/><child link="arm"/><axis xyz="0 1 0"/>
+<origin rpy="0 0 90"/><limit lower="-170" upper="170" effort="1" velocity="1"/></joint></robot>"#;
+    let suspected =
+        ["90rad in the joint `hinge` looks like degrees", "<stdin>:5:50: 170rad in the joint `hinge`"];
+    let checked = dynamics_on(file.as_bytes(), &["check", "-"]).ok();
+    assert!(
+        checked.contains("\nsuspicious\n") && suspected.iter().all(|text| checked.contains(text)),
+        "{checked}"
+    );
+    for command in [
+        &["eval", "-", "--state", r#"{"q": [1]}"#][..],
+        &["count", "-"],
+        &["simulate", "-", "--time", "1", "--step", "0.1"],
+        &[
+            "rollouts",
+            "-",
+            "--time",
+            "1",
+            "--step",
+            "0.1",
+            "--vary",
+            "q.hinge = uniform(0, 1)",
+            "--count",
+            "2",
+        ],
+        &[
+            "generate",
+            "-",
+            "--lang",
+            "c",
+            "--name",
+            "arm",
+            "--outputs",
+            "mass_matrix",
+            "-o",
+            &folder("degrees").display().to_string(),
+        ],
+        &["explain", "-"],
+    ] {
+        let done = dynamics_on(file.as_bytes(), command);
+        assert_eq!(done.code, 0, "{command:?}: {}", done.stderr);
+        let lines: Vec<&str> =
+            done.stderr.lines().filter(|line| line.starts_with("warning: <stdin>:")).collect();
+        assert_eq!(lines.len(), 3, "{command:?}: {}", done.stderr);
+        assert!(suspected.iter().all(|text| done.stderr.contains(text)), "{command:?}: {}", done.stderr);
+    }
+}

@@ -157,7 +157,7 @@ fn passive_forces_are_left_out_when_asked() {
 fn what_looks_odd_is_remarked() {
     let text = ARM.replace("rpy=\"0 0 0\"", "rpy=\"0 90 0\"").replace("lower=\"-1\"", "lower=\"-170\"");
     let (_, report) = read(&text, "");
-    assert_eq!(report.remarks.len(), 3, "{:?}", report.remarks);
+    assert_eq!(report.suspicions.len(), 3, "{:?}", report.suspicions);
     assert!(mistakes_in(&text, "").is_empty());
 }
 

@@ -260,29 +260,29 @@ impl<'d> Reader<'d> {
         [xyz, rpy]
     }
 
-    /// Remarks on an angle of a frame that looks like degrees, and on one next to a right angle.
+    /// Suspects an angle of a frame that looks like degrees, and tells of one next to a right angle.
     fn look_at_angle(&mut self, formula: &Formula) {
         use std::f64::consts::{FRAC_PI_2, TAU};
         let angle = numbers::value(formula).map_or(0.0, Number::to_f64);
         let quarters = (angle / FRAC_PI_2).round();
         if angle.abs() > TAU {
-            self.remark_on_degrees(formula);
+            self.suspect_degrees(formula);
         } else if angle != 0.0 && (angle - quarters * FRAC_PI_2).abs() <= 1e-11 {
             let text = format!("{formula} in {} is taken as {}°", self.owner, 90.0 * quarters);
             self.report.snapped.push(Note::new(text, formula.place.clone()));
         }
     }
 
-    /// Remarks on a limit of more than three turns.
+    /// Suspects a limit of more than three turns.
     pub(super) fn look_at_limit(&mut self, formula: &Formula) {
         let angle = numbers::value(formula).map_or(0.0, Number::to_f64);
         if angle.abs() > 3.0 * std::f64::consts::TAU {
-            self.remark_on_degrees(formula);
+            self.suspect_degrees(formula);
         }
     }
 
-    fn remark_on_degrees(&mut self, formula: &Formula) {
+    fn suspect_degrees(&mut self, formula: &Formula) {
         let text = format!("{formula} in {} looks like degrees: it is taken as radians", self.owner);
-        self.remark(text, formula.place.clone());
+        self.report.suspicions.push(Note::new(text, formula.place.clone()));
     }
 }

@@ -23,6 +23,8 @@ pub struct Report {
     pub snapped: Vec<Note>,
     /// What was altered or assumed, and what looks odd.
     pub remarks: Vec<Note>,
+    /// What is taken as it is written, and looks like a mistake.
+    pub suspicions: Vec<Note>,
 }
 
 /// A fact, and where it is from.
