@@ -1,12 +1,10 @@
 //! `dynamics check FILE`: what was read, and whether it can be a robot.
 
-use std::io::Write;
-
 use dynamics_codegen::diagnostics::{Diagnostics, Place};
 use dynamics_codegen::model::names::check_types;
 use dynamics_codegen::model::{JointInfo, Limits, Motion, Parameter, Passive, Tree};
 use dynamics_codegen::passes::Plan;
-use dynamics_codegen::spec::urdf::{Note, Report};
+use dynamics_codegen::spec::urdf::Note;
 use dynamics_codegen::spec::{Field, JointKind, JointSpec, RobotSpec, TermKind, TermSpec, plain, welded};
 use dynamics_codegen::symbolic::{Evaluator, Graph, Number, SymbolId};
 
@@ -360,33 +358,6 @@ fn absent(robot: &Robot<'_>) -> String {
 
 /// Notes under a title.
 fn notes(title: &str, notes: &[Note], input: &Input) -> String {
-    let lines: String = placed(notes, input).iter().map(|line| format!("  {line}\n")).collect();
+    let lines: String = input.placed(notes).iter().map(|line| format!("  {line}\n")).collect();
     if lines.is_empty() { lines } else { format!("\n{title}\n{lines}") }
-}
-
-/// Tells those who do not check what looks like a mistake in the file, and is taken as it is written.
-pub(crate) fn warn(report: &Report, input: &Input) {
-    for line in placed(&report.suspicions, input) {
-        let _ = writeln!(std::io::stderr(), "warning: {line}");
-    }
-}
-
-/// Notes with their places, in the order of the file.
-pub(crate) fn placed(notes: &[Note], input: &Input) -> Vec<String> {
-    let mut notes: Vec<&Note> = notes.iter().collect();
-    notes.sort_by_key(|note| match note.place {
-        Place::Text { line, column, .. } => (line, column),
-        Place::Tokens { .. } => (0, 0),
-    });
-    let line = |note: &&Note| {
-        let spot = input.spot(&note.place);
-        let place = match (&note.place, &spot) {
-            (Place::Text { .. }, Some(spot)) => format!("{}:{}:{}: ", spot.file, spot.line, spot.column),
-            (_, Some(spot)) if spot.file.starts_with("--") => format!("{}: ", spot.file),
-            (_, Some(spot)) => format!("{}:{}: ", spot.file, spot.line),
-            (_, None) => String::new(),
-        };
-        format!("{place}{}", input.worded(&note.text, spot.as_ref()))
-    };
-    notes.iter().map(line).collect()
 }

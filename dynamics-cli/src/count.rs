@@ -4,7 +4,6 @@ use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::passes::{CompiledMethod, Plan};
 use dynamics_codegen::symbolic::Graph;
 
-use crate::check::warn;
 use crate::failure::Failure;
 use crate::output::{print, table};
 use crate::reading::InputArgs;
@@ -26,7 +25,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let input = args.input.read()?;
     let graph = Graph::new();
     let robot = Robot::with_fields(&input, &graph, Wanted::All, &[])?;
-    warn(&robot.report, &input);
+    input.warn(&robot.report);
     let (of_robot, of_frames): (Vec<_>, Vec<_>) =
         robot.compiled.methods.iter().partition(|compiled| Method::OF_ROBOT.contains(&compiled.method));
     let row = |compiled: &&CompiledMethod<'_>| row(&robot, compiled);

@@ -7,7 +7,6 @@ use dynamics_codegen::symbolic::Graph;
 use serde_json::json;
 
 use crate::absence::{Absence, divides_by_mass};
-use crate::check::warn;
 use crate::failure::{Failure, Problem};
 use crate::input::shown;
 use crate::output::print;
@@ -145,7 +144,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         methods.extend(Method::of_frame(0));
     }
     let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
-    warn(&robot.report, &input);
+    input.warn(&robot.report);
     // What nobody has asked for by its name is not missed.
     outputs.retain(|output| {
         robot.has(output.method)

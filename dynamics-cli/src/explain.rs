@@ -15,7 +15,6 @@ use dynamics_codegen::mechanics::lecture::lecture;
 use dynamics_codegen::mechanics::letters::Letters;
 use dynamics_codegen::symbolic::Graph;
 
-use crate::check::warn;
 use crate::failure::{Failure, Problem};
 use crate::input::shown;
 use crate::output::print;
@@ -89,7 +88,7 @@ fn unknown(asked: &str, name: &str) -> Failure {
 fn derive(args: &Args, file: &Path) -> Result<(), Failure> {
     let input = args.reading.read(file, |_| {})?;
     let (mut spec, report) = input.spec(&[])?;
-    warn(&report, &input);
+    input.warn(&report);
     if let Some(name) = report.robot.as_deref().map(shown)
         && let Ok(ident) = syn::parse_str::<syn::Ident>(&name)
     {

@@ -10,7 +10,6 @@ use dynamics_codegen::spec::RobotSpec;
 use dynamics_codegen::spec::urdf::Report;
 use dynamics_codegen::{generate_c, generate_rust};
 
-use crate::check::warn;
 use crate::failure::{Failure, Problem};
 use crate::input::{Input, name_of, shown};
 use crate::output::{check_writable, failed, print, writer};
@@ -98,7 +97,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
         check_writable(args.output.as_deref(), &args.input.file)?;
     }
     let (mut spec, report) = input.spec(&[])?;
-    warn(&report, &input);
+    input.warn(&report);
     let name = match given {
         Some(name) => name.to_owned(),
         None => name_in_file(&report, args.lang),

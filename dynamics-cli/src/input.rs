@@ -1,13 +1,13 @@
 //! The robot that a command is about: a URDF, or a struct in a file of Rust, with what the command line says of it.
 
 use std::cell::RefCell;
-use std::io::Read;
+use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 
 use dynamics_codegen::diagnostics::{Diagnostics, Place};
 use dynamics_codegen::model;
 use dynamics_codegen::spec::RobotSpec;
-use dynamics_codegen::spec::urdf::{Report, SIZE_LIMIT, Urdf};
+use dynamics_codegen::spec::urdf::{Note, Report, SIZE_LIMIT, Urdf};
 use dynamics_codegen::symbolic::Graph;
 use dynamics_codegen::{read_struct, read_urdf_with};
 
@@ -130,6 +130,33 @@ impl Input {
                 Some(Spot::in_text(name, text, *line as usize, *column as usize))
             }
         }
+    }
+
+    /// Warns of what looks like a mistake in the file, and is taken as it is written.
+    pub(crate) fn warn(&self, report: &Report) {
+        for line in self.placed(&report.suspicions) {
+            let _ = writeln!(std::io::stderr(), "warning: {line}");
+        }
+    }
+
+    /// Notes with their places, in the order of the file.
+    pub(crate) fn placed(&self, notes: &[Note]) -> Vec<String> {
+        let mut notes: Vec<&Note> = notes.iter().collect();
+        notes.sort_by_key(|note| match note.place {
+            Place::Text { line, column, .. } => (line, column),
+            Place::Tokens { .. } => (0, 0),
+        });
+        let line = |note: &&Note| {
+            let spot = self.spot(&note.place);
+            let place = match (&note.place, &spot) {
+                (Place::Text { .. }, Some(spot)) => format!("{}:{}:{}: ", spot.file, spot.line, spot.column),
+                (_, Some(spot)) if spot.file.starts_with("--") => format!("{}: ", spot.file),
+                (_, Some(spot)) => format!("{}:{}: ", spot.file, spot.line),
+                (_, None) => String::new(),
+            };
+            format!("{place}{}", self.worded(&note.text, spot.as_ref()))
+        };
+        notes.iter().map(line).collect()
     }
 
     /// A text of the compiler, in the words of where the robot was written.

@@ -142,7 +142,9 @@ pub(crate) fn text(exponents: Exponents) -> String {
         (above, below) if below.is_empty() && above.is_empty() => "rad".to_owned(),
         (above, below) if below.is_empty() => above,
         (above, below) => {
-            let above = if above.is_empty() { "rad".to_owned() } else { above };
+            // An angle has no unit of its own, and its rates are what has seconds alone.
+            let of_rate = if matches!(exponents, [0, 0, _]) { "rad" } else { "1" };
+            let above = if above.is_empty() { of_rate.to_owned() } else { above };
             let below = if below.len() > 1 { format!("({})", below.join("·")) } else { below.concat() };
             format!("{above}/{below}")
         }

@@ -118,6 +118,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     check_writable(args.output.as_deref(), &args.input.file)?;
     let graph = Graph::new();
     let robot = Robot::of(&input, &graph, Wanted::Only(&Method::OF_ROBOT))?;
+    input.warn(&robot.report);
     let at = state::read(&args.state, &args.input.file, &robot)?;
     let start = swing::start(&robot, args.q.as_deref(), args.v.as_deref())?;
     for (state, what, option) in

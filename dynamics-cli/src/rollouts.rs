@@ -21,7 +21,6 @@ use self::study::{Study, Target};
 use self::table::{Format, Rows, Table};
 use self::variation::{GRID, Given, VARY};
 use crate::attributes::quoted;
-use crate::check::warn;
 use crate::failure::{Failure, Problem};
 use crate::fields::unless_known;
 use crate::input::{Input, shown};
@@ -113,7 +112,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let graph = Graph::new();
     let fields = fields(&given)?;
     let robot = Robot::with_fields(&input, &graph, Wanted::Only(&METHODS), &fields)?;
-    warn(&robot.report, &input);
+    input.warn(&robot.report);
     let study = Study::of(&robot, &given, args.count, args.seed)?;
     unless_known(&robot.model, |k| study.axes.iter().any(|axis| axis.target == Target::Field(k)))?;
     let mut start = State::neutral(&robot);

@@ -7,7 +7,6 @@ use dynamics_codegen::mechanics::equations::Method;
 use dynamics_codegen::symbolic::Graph;
 
 use crate::absence::Absent;
-use crate::check::warn;
 use crate::failure::{Failure, Problem};
 use crate::limits::Watch;
 use crate::motion::{FixedStep, Mover};
@@ -141,7 +140,7 @@ pub(crate) fn run(args: &Args) -> Result<(), Failure> {
     let graph = Graph::new();
     let methods = [&METHODS[..], args.picture.methods()].concat();
     let robot = Robot::of(&input, &graph, Wanted::Only(&methods))?;
-    warn(&robot.report, &input);
+    input.warn(&robot.report);
     let mut state = State::neutral(&robot);
     start::put(&robot, &mut state, args.q.as_deref(), args.v.as_deref())?;
     if let Err(why) = robot.moves(&state) {

@@ -3,7 +3,6 @@
 use dynamics_view::page::Section;
 
 use super::Subject;
-use crate::check::placed;
 
 pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     let report = &subject.robot.report;
@@ -26,7 +25,7 @@ pub(super) fn section(subject: &Subject<'_, '_>) -> Section {
     lists.into_iter().filter(|(_, notes, _)| !notes.is_empty()).fold(
         section,
         |section, (title, notes, what)| {
-            let lines = placed(notes, subject.input);
+            let lines = subject.input.placed(notes);
             // The folder of the file is of no concern to readers.
             let shown = lines.iter().map(|line| line.replacen(&subject.input.name, &file, 1));
             let mut kept: Vec<String> = shown.take(MOST).collect();

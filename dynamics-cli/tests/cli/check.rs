@@ -143,6 +143,7 @@ fn degrees_in_a_file_are_suspected_aloud() {
             &folder("degrees").display().to_string(),
         ],
         &["explain", "-"],
+        &["report", "-", "-o", &folder("degrees").join("arm.html").display().to_string()],
     ] {
         let done = dynamics_on(file.as_bytes(), command);
         assert_eq!(done.code, 0, "{command:?}: {}", done.stderr);
